@@ -1,0 +1,38 @@
+# Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
+.DEFAULT_GOAL := help
+.PHONY: help build test test-ipopt-3.14 bench lint doc demo fresh table2 clean
+
+help: ## show this list
+	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+build: ## build the library and the program in release
+	cargo build --release --locked --workspace
+
+test: ## run every test in release
+	scripts/test.sh
+
+test-ipopt-3.14: ## run the tests against a newer Ipopt, 3.14
+	scripts/ipopt-3.14.sh
+
+bench: ## run the benchmarks
+	cargo bench --locked
+
+lint: ## check the formatting and run clippy, warnings being errors
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --release --locked -- -D warnings
+
+doc: ## build the API documentation
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --release --locked
+
+demo: ## plan the example trajectory
+	scripts/demo.sh
+
+fresh: ## run the demo and the tests in a new Debian 12 (root, debootstrap)
+	scripts/fresh-debian.sh all
+
+table2: ## compute the comparison of the methods (Table 2)
+	cargo run --release --locked --bin ffsm-ipopt -- table2
+
+clean: ## remove what was built and computed
+	cargo clean
+	rm -rf out

@@ -1,0 +1,20 @@
+//! Forward automatic differentiation by dual numbers, written by hand.
+//!
+//! Model code is written once, generic over [`Scalar`], and evaluated with `f64` for values, with
+//! [`Dual`] for first derivatives in several directions at a time, and with [`HyperDual`] for
+//! blocks of second derivatives. Derivatives are exact to rounding: no step size is involved.
+//! [`SparseDerivatives`] sweeps a [`Function`] so that only its nonzeros are computed.
+
+mod dual;
+mod function;
+mod hyper_dual;
+mod scalar;
+mod sparse;
+mod sparsity;
+
+pub use dual::Dual;
+pub use function::Function;
+pub use hyper_dual::HyperDual;
+pub use scalar::Scalar;
+pub use sparse::SparseDerivatives;
+pub use sparsity::Sparsity;

@@ -1,0 +1,176 @@
+//! How segments tile the time axis.
+
+use super::Rule;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A mesh that cannot be.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// No segment at all.
+    #[error("a mesh needs at least one segment")]
+    NoSegments,
+    /// A segment without points.
+    #[error("segment {segment} has no collocation points; it needs at least one")]
+    NoPoints {
+        /// Segment, counted from 1.
+        segment: usize,
+    },
+    /// One more breakpoint than segments is needed.
+    #[error("{breakpoints} breakpoints do not bound {segments} segments")]
+    Mismatch {
+        /// Number of breakpoints given.
+        breakpoints: usize,
+        /// Number of segments given.
+        segments: usize,
+    },
+    /// Breakpoints must rise from 0 to 1.
+    #[error("breakpoint {index} is {value}; breakpoints must rise from 0 to 1")]
+    NotRising {
+        /// Breakpoint, counted from 0.
+        index: usize,
+        /// Its value, fraction of the duration.
+        value: f64,
+    },
+}
+
+/// Segments s = 1 … S with their breakpoints and numbers of LGR points.
+///
+/// Breakpoints are fractions of the duration, 0 = t₀ and 1 = t_f, so that a mesh holds for a free
+/// final time as well. Neighbouring segments share the node between them (Remark 3).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    breakpoints: Vec<f64>,
+    rules: Vec<Arc<Rule>>,
+    starts: Vec<usize>,
+}
+
+impl Mesh {
+    /// A mesh from breakpoints (S + 1, rising from 0 to 1) and points in each segment (S).
+    ///
+    /// # Errors
+    /// [`MeshError`] for an empty mesh or segment, or breakpoints that do not rise from 0 to 1.
+    pub fn new(breakpoints: Vec<f64>, points: &[usize]) -> Result<Self, MeshError> {
+        if points.is_empty() {
+            return Err(MeshError::NoSegments);
+        }
+        if breakpoints.len() != points.len() + 1 {
+            return Err(MeshError::Mismatch {
+                breakpoints: breakpoints.len(),
+                segments: points.len(),
+            });
+        }
+        if let Some(s) = points.iter().position(|&n| n == 0) {
+            return Err(MeshError::NoPoints { segment: s + 1 });
+        }
+        let last = points.len();
+        for (index, &value) in breakpoints.iter().enumerate() {
+            let good = match index {
+                0 => value == 0.0,
+                _ => value > breakpoints[index - 1] && (index < last || value == 1.0),
+            };
+            if !good {
+                return Err(MeshError::NotRising { index, value });
+            }
+        }
+        let mut cache = HashMap::new();
+        let rules: Vec<Arc<Rule>> = points
+            .iter()
+            .map(|&n| {
+                cache
+                    .entry(n)
+                    .or_insert_with(|| Arc::new(Rule::new(n)))
+                    .clone()
+            })
+            .collect();
+        let mut starts = vec![0];
+        for n in points {
+            starts.push(starts[starts.len() - 1] + n);
+        }
+        Ok(Self {
+            breakpoints,
+            rules,
+            starts,
+        })
+    }
+
+    /// `segments` equal segments with `points` LGR points each.
+    ///
+    /// # Errors
+    /// [`MeshError`] where either is zero.
+    pub fn uniform(segments: usize, points: usize) -> Result<Self, MeshError> {
+        let breakpoints = (0..=segments)
+            .map(|s| s as f64 / segments.max(1) as f64)
+            .collect();
+        Self::new(breakpoints, &vec![points; segments])
+    }
+
+    /// Number of segments S.
+    pub fn segments(&self) -> usize {
+        self.rules.len()
+    }
+
+    /// Number of collocation points in all segments together.
+    pub fn points(&self) -> usize {
+        self.starts[self.rules.len()]
+    }
+
+    /// Breakpoints as fractions of the duration, length S + 1.
+    pub fn breakpoints(&self) -> &[f64] {
+        &self.breakpoints
+    }
+
+    /// LGR points of each segment, length S.
+    pub fn points_per_segment(&self) -> Vec<usize> {
+        self.rules.iter().map(|rule| rule.len()).collect()
+    }
+
+    /// The Radau rule of segment `s`, counted from 0.
+    pub fn rule(&self, s: usize) -> &Rule {
+        &self.rules[s]
+    }
+
+    /// Number of the first node of segment `s` among all nodes; its last state node is the first
+    /// of the next segment.
+    pub fn start(&self, s: usize) -> usize {
+        self.starts[s]
+    }
+
+    /// Width of segment `s`, fraction of the duration.
+    pub fn width(&self, s: usize) -> f64 {
+        self.breakpoints[s + 1] - self.breakpoints[s]
+    }
+
+    /// Fraction of the duration at τ ∈ [−1, 1] of segment `s`, eq. (16).
+    pub fn fraction(&self, s: usize, tau: f64) -> f64 {
+        if tau == 1.0 {
+            return self.breakpoints[s + 1];
+        }
+        self.breakpoints[s] + 0.5 * (tau + 1.0) * self.width(s)
+    }
+
+    /// Fractions of the duration of all state nodes, the last being 1; length points + 1.
+    pub fn node_fractions(&self) -> Vec<f64> {
+        let mut fractions: Vec<f64> = (0..self.segments())
+            .flat_map(|s| {
+                self.rules[s]
+                    .points()
+                    .iter()
+                    .map(move |&tau| self.fraction(s, tau))
+            })
+            .collect();
+        fractions.push(1.0);
+        fractions
+    }
+
+    /// Segment and τ of a fraction of the duration; at a breakpoint the segment that starts there.
+    pub fn locate(&self, fraction: f64) -> (usize, f64) {
+        let s = self
+            .breakpoints
+            .partition_point(|&b| b <= fraction)
+            .clamp(1, self.segments())
+            - 1;
+        let tau = 2.0 * (fraction - self.breakpoints[s]) / self.width(s) - 1.0;
+        (s, tau.clamp(-1.0, 1.0))
+    }
+}

@@ -1,0 +1,32 @@
+//! Poses of all bodies in the base frame, eq. (1).
+
+use super::space::{Space, Vector};
+use super::{Data, JointKind, Tree};
+use crate::autodiff::Scalar;
+
+impl<Sp: Space> Tree<Sp> {
+    /// Orientation, joint origin, axis and mass centre of every body for the joint positions `q`
+    /// (rad or m, length n).
+    pub fn kinematics<S: Scalar>(&self, q: &[S], data: &mut Data<Sp, S>) {
+        for (j, link) in self.links.iter().enumerate() {
+            let (orientation, origin) = match link.parent {
+                Some(parent) => (data.orientation[parent], data.origin[parent]),
+                None => (Sp::aligned(), Sp::Linear::zero()),
+            };
+            let mut joint = origin + Sp::rotated(&orientation, &link.offset);
+            let turn = (link.kind == JointKind::Revolute).then(|| q[j].sin_cos());
+            let orientation = Sp::turned(&orientation, &link.fixed, turn, link.sign);
+            match link.kind {
+                JointKind::Revolute => data.axis[j] = Sp::axis(&orientation, link.sign),
+                JointKind::Prismatic => {
+                    data.slide[j] = Sp::rotated(&orientation, &link.slide);
+                    joint += data.slide[j].scaled(q[j]);
+                }
+            }
+            data.orientation[j] = orientation;
+            data.origin[j] = joint;
+            data.center[j] = joint + Sp::rotated(&orientation, &link.center);
+            data.inertia[j] = Sp::inertia(&orientation, &link.inertia);
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Free-floating multibody dynamics by momentum conservation, equations (1) to (6).
+//!
+//! A [`Model`] is an immutable tree of rigid bodies on a floating base. Compiled to a
+//! [`Tree`] in the plane or in space, it is evaluated with any [`Scalar`](crate::autodiff::Scalar)
+//! into a mutable [`Data`]; one algorithm a file:
+//!
+//! | file | computes |
+//! | --- | --- |
+//! | `kinematics` | poses of all bodies, eq. (1) |
+//! | `momentum` | composite rigid bodies, momentum of unit joint rates, base rate, eq. (2), (5) |
+//! | `mass_matrix` | the reduced inertia matrix H, eq. (6) |
+//! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
+//! | `attitude` | the rate map of the base attitude |
+//!
+//! All vectors are in the axes of the base body, so that nothing depends on the base attitude.
+
+pub mod attitude;
+mod bias;
+mod data;
+mod inertia;
+mod kinematics;
+mod ldl;
+mod mass_matrix;
+mod model;
+mod momentum;
+mod planarity;
+pub mod space;
+mod tree;
+
+pub use data::Data;
+pub use inertia::{Inertia, InertiaError};
+pub use ldl::Ldl;
+pub use model::{Body, Joint, JointKind, JointLimits, Model, ModelError, Placement};
+pub use planarity::Plane;
+pub use tree::Tree;

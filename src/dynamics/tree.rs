@@ -1,0 +1,171 @@
+//! A model compiled for evaluation: only what the recursions read, in aligned frames.
+
+use super::planarity::zero_poses;
+use super::space::{Planar, Space, Spatial, Symmetric};
+use super::{Inertia, JointKind, Model};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+/// One body with its joint. The base has no joint and is kept apart.
+#[derive(Debug, Clone)]
+pub(super) struct Link<Sp: Space> {
+    pub parent: Option<usize>,
+    pub kind: JointKind,
+    /// Sense of rotation about the plane's normal; +1 in space.
+    pub sign: f64,
+    /// Joint frame in the parent's frame at position zero.
+    pub fixed: Sp::Orientation<f64>,
+    /// Joint origin in the parent's frame, m.
+    pub offset: Sp::Linear<f64>,
+    /// Direction of sliding in the joint frame; unused for revolute joints.
+    pub slide: Sp::Linear<f64>,
+    pub mass: f64,
+    pub center: Sp::Linear<f64>,
+    pub inertia: Sp::Inertia<f64>,
+    /// Mass of this body and all it carries, kg.
+    pub carried: f64,
+}
+
+/// A [`Model`] compiled for the plane or for space.
+#[derive(Debug, Clone)]
+pub struct Tree<Sp: Space> {
+    pub(super) links: Vec<Link<Sp>>,
+    pub(super) base_mass: f64,
+    pub(super) base_center: Sp::Linear<f64>,
+    pub(super) base_inertia: Sp::Inertia<f64>,
+    pub(super) total_mass: f64,
+}
+
+impl<Sp: Space> Tree<Sp> {
+    /// Number of joints n.
+    pub fn joint_count(&self) -> usize {
+        self.links.len()
+    }
+
+    /// Mass of all bodies together, kg.
+    pub fn total_mass(&self) -> f64 {
+        self.total_mass
+    }
+
+    fn assemble(
+        mut links: Vec<Link<Sp>>,
+        base_mass: f64,
+        base_center: Sp::Linear<f64>,
+        base_inertia: Sp::Inertia<f64>,
+    ) -> Self {
+        for j in (0..links.len()).rev() {
+            if let Some(parent) = links[j].parent {
+                links[parent].carried += links[j].carried;
+            }
+        }
+        let total_mass = base_mass
+            + links
+                .iter()
+                .filter(|link| link.parent.is_none())
+                .map(|link| link.carried)
+                .sum::<f64>();
+        Self {
+            links,
+            base_mass,
+            base_center,
+            base_inertia,
+            total_mass,
+        }
+    }
+}
+
+impl Tree<Planar> {
+    /// The planar form of a model, or `None` where its motion leaves the plane.
+    pub fn planar(model: &Model) -> Option<Self> {
+        let basis = model.plane()?.basis;
+        let poses = zero_poses(model.joints());
+        let flat = |v: Vector3<f64>| (basis.transpose() * v).xy();
+        let about_normal = |inertia: &Inertia| {
+            let normal = basis.column(2);
+            normal.dot(&(inertia.rotational() * normal))
+        };
+        let links = model
+            .joints()
+            .iter()
+            .zip(&poses)
+            .map(|(joint, (rotation, origin))| {
+                let carrier = joint
+                    .parent
+                    .map_or(Vector3::zeros(), |parent| poses[parent].1);
+                let inertia = joint.body.inertia.placed(rotation, &Vector3::zeros());
+                let axis = rotation * joint.axis.as_ref();
+                Link {
+                    parent: joint.parent,
+                    kind: joint.kind,
+                    sign: axis.dot(&basis.column(2)).signum(),
+                    fixed: Planar::aligned(),
+                    offset: flat(origin - carrier),
+                    slide: flat(axis),
+                    mass: inertia.mass(),
+                    center: flat(*inertia.center()),
+                    inertia: about_normal(&inertia),
+                    carried: inertia.mass(),
+                }
+            })
+            .collect();
+        let base = &model.base().inertia;
+        Some(Self::assemble(
+            links,
+            base.mass(),
+            flat(*base.center()),
+            about_normal(base),
+        ))
+    }
+}
+
+impl Tree<Spatial> {
+    /// The spatial form of a model; serves planar ones as well.
+    pub fn spatial(model: &Model) -> Self {
+        // Each joint frame is turned so that its axis is z.
+        let alignment: Vec<Matrix3<f64>> = model
+            .joints()
+            .iter()
+            .map(|joint| match joint.kind {
+                JointKind::Revolute => Rotation3::rotation_between(&Vector3::z(), &joint.axis)
+                    .unwrap_or_else(|| {
+                        Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+                    })
+                    .into_inner(),
+                JointKind::Prismatic => Matrix3::identity(),
+            })
+            .collect();
+        let columns = |m: Matrix3<f64>| [0, 1, 2].map(|i| m.column(i).into_owned());
+        let links = model
+            .joints()
+            .iter()
+            .zip(&alignment)
+            .map(|(joint, aligned)| {
+                let parent = joint
+                    .parent
+                    .map_or(Matrix3::identity(), |p| alignment[p].transpose());
+                let inertia = joint
+                    .body
+                    .inertia
+                    .placed(&aligned.transpose(), &Vector3::zeros());
+                Link {
+                    parent: joint.parent,
+                    kind: joint.kind,
+                    sign: 1.0,
+                    fixed: columns(parent * joint.placement.rotation * aligned),
+                    offset: parent * joint.placement.translation,
+                    slide: *joint.axis,
+                    mass: inertia.mass(),
+                    center: *inertia.center(),
+                    inertia: Symmetric::from_matrix(inertia.rotational()),
+                    carried: inertia.mass(),
+                }
+            })
+            .collect();
+        let base = &model.base().inertia;
+        Self::assemble(
+            links,
+            base.mass(),
+            *base.center(),
+            Symmetric::from_matrix(base.rotational()),
+        )
+    }
+}

@@ -1,0 +1,15 @@
+//! Trajectory optimisation for free-floating space manipulators.
+pub mod autodiff;
+pub mod cli;
+pub mod collocation;
+pub mod config;
+pub mod dynamics;
+pub mod nlp;
+pub mod ocp;
+pub mod planner;
+pub mod refine;
+pub mod report;
+pub mod transcription;
+pub mod verify;
+
+pub use nalgebra;

@@ -1,0 +1,280 @@
+//! The functions Ipopt calls: from C to the [`Nlp`] and the monitor, and no panic back.
+
+use super::interrupt;
+use super::structure::{Structure, Structures};
+use crate::nlp::{Control, Nlp, Progress, Undefined};
+use ipopt_sys::{self as ip, Bool, Index, Number, UserDataPtr};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::slice::{from_raw_parts, from_raw_parts_mut};
+use std::time::{Duration, Instant};
+
+/// What the callbacks of one solve share.
+pub(super) struct Context<'a, N: Nlp + ?Sized> {
+    nlp: &'a mut N,
+    monitor: &'a mut dyn FnMut(&Progress) -> Control,
+    structure: &'a Structures,
+    /// Ipopt need not call the first point new.
+    begun: bool,
+    record: Record,
+}
+
+/// What is left of a solve's callbacks once it has ended.
+#[derive(Default)]
+pub(super) struct Record {
+    /// The payload of the first panic; from then on every callback refuses.
+    pub(super) panic: Option<Box<dyn Any + Send>>,
+    /// The last iteration.
+    pub(super) last: Option<Progress>,
+    /// Calls of objective, gradient, constraints, Jacobian and Hessian.
+    pub(super) evaluations: [u32; 5],
+    /// Time in those calls.
+    pub(super) derivatives: Duration,
+}
+
+/// The evaluations, in the order they are counted in.
+#[derive(Clone, Copy)]
+enum Function {
+    Objective,
+    Gradient,
+    Constraints,
+    Jacobian,
+    Hessian,
+}
+
+impl<'a, N: Nlp + ?Sized> Context<'a, N> {
+    pub(super) fn new(
+        nlp: &'a mut N,
+        monitor: &'a mut dyn FnMut(&Progress) -> Control,
+        structure: &'a Structures,
+    ) -> Self {
+        Self {
+            nlp,
+            monitor,
+            structure,
+            begun: false,
+            record: Record::default(),
+        }
+    }
+
+    pub(super) fn finish(self) -> Record {
+        self.record
+    }
+
+    /// Runs one evaluation; false to Ipopt where the value is undefined, which shortens its step.
+    fn evaluate(
+        &mut self,
+        function: Function,
+        new_point: Bool,
+        body: impl FnOnce(&mut N) -> Result<(), Undefined>,
+    ) -> Bool {
+        if self.record.panic.is_some() {
+            return ip::from_bool(false);
+        }
+        let begin = Instant::now();
+        let new_point = ip::is_true(new_point) || !self.begun;
+        self.begun = true;
+        let nlp = &mut *self.nlp;
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            if new_point {
+                nlp.new_point();
+            }
+            body(nlp).is_ok()
+        }));
+        self.record.evaluations[function as usize] += 1;
+        self.record.derivatives += begin.elapsed();
+        self.answer(outcome)
+    }
+
+    /// Reports an iteration; false to Ipopt to end the solve.
+    fn report(&mut self, progress: Progress) -> Bool {
+        if self.record.panic.is_some() {
+            return ip::from_bool(false);
+        }
+        self.record.last = Some(progress);
+        let monitor = &mut *self.monitor;
+        let outcome = catch_unwind(AssertUnwindSafe(|| monitor(&progress) == Control::Continue));
+        let go_on = self.answer(outcome);
+        ip::from_bool(ip::is_true(go_on) && !interrupt::requested())
+    }
+
+    fn answer(&mut self, outcome: Result<bool, Box<dyn Any + Send>>) -> Bool {
+        ip::from_bool(outcome.unwrap_or_else(|payload| {
+            self.record.panic = Some(payload);
+            false
+        }))
+    }
+}
+
+/// The context behind Ipopt's user data.
+///
+/// # Safety
+/// `user_data` is the `Context<N>` that `Problem::<N>::solve` passed on, and nothing else refers
+/// to it while the callback runs.
+unsafe fn context<'c, 'a: 'c, N: Nlp + ?Sized>(user_data: UserDataPtr) -> &'c mut Context<'a, N> {
+    // SAFETY: the caller's promise.
+    unsafe { &mut *user_data.cast::<Context<'a, N>>() }
+}
+
+/// # Safety
+/// `data` points to `length` numbers that live through the callback, or `length` is 0.
+unsafe fn input<'c>(data: *const Number, length: Index) -> &'c [f64] {
+    match usize::try_from(length) {
+        // SAFETY: the caller's promise.
+        Ok(length) if length > 0 => unsafe { from_raw_parts(data, length) },
+        _ => &[],
+    }
+}
+
+/// # Safety
+/// `data` points to `length` values that live through the callback and are not referred to
+/// otherwise, or `length` is 0.
+unsafe fn output<'c, T>(data: *mut T, length: Index) -> &'c mut [T] {
+    match usize::try_from(length) {
+        // SAFETY: the caller's promise.
+        Ok(length) if length > 0 => unsafe { from_raw_parts_mut(data, length) },
+        _ => &mut [],
+    }
+}
+
+pub(super) unsafe extern "C" fn objective<N: Nlp + ?Sized>(
+    n: Index,
+    x: *mut Number,
+    new_x: Bool,
+    value: *mut Number,
+    user_data: UserDataPtr,
+) -> Bool {
+    // SAFETY: Ipopt passes its user data, x of length n and one value to write.
+    let (context, x, value) = unsafe { (context::<N>(user_data), input(x, n), &mut *value) };
+    context.evaluate(Function::Objective, new_x, |nlp| {
+        *value = nlp.objective(x)?;
+        Ok(())
+    })
+}
+
+pub(super) unsafe extern "C" fn gradient<N: Nlp + ?Sized>(
+    n: Index,
+    x: *mut Number,
+    new_x: Bool,
+    values: *mut Number,
+    user_data: UserDataPtr,
+) -> Bool {
+    // SAFETY: Ipopt passes its user data, x and the gradient of length n.
+    let (context, x, values) = unsafe { (context::<N>(user_data), input(x, n), output(values, n)) };
+    context.evaluate(Function::Gradient, new_x, |nlp| nlp.gradient(x, values))
+}
+
+pub(super) unsafe extern "C" fn constraints<N: Nlp + ?Sized>(
+    n: Index,
+    x: *mut Number,
+    new_x: Bool,
+    m: Index,
+    values: *mut Number,
+    user_data: UserDataPtr,
+) -> Bool {
+    // SAFETY: Ipopt passes its user data, x of length n and values of length m.
+    let (context, x, values) = unsafe { (context::<N>(user_data), input(x, n), output(values, m)) };
+    context.evaluate(Function::Constraints, new_x, |nlp| {
+        nlp.constraints(x, values)
+    })
+}
+
+pub(super) unsafe extern "C" fn jacobian<N: Nlp + ?Sized>(
+    n: Index,
+    x: *mut Number,
+    new_x: Bool,
+    _m: Index,
+    nonzeros: Index,
+    rows: *mut Index,
+    columns: *mut Index,
+    values: *mut Number,
+    user_data: UserDataPtr,
+) -> Bool {
+    // SAFETY: Ipopt passes its user data.
+    let context = unsafe { context::<N>(user_data) };
+    if values.is_null() {
+        // SAFETY: without values, Ipopt passes rows and columns of this length.
+        return unsafe { copy(&context.structure.jacobian, nonzeros, rows, columns) };
+    }
+    // SAFETY: with values, Ipopt passes x of length n and one value a nonzero.
+    let (x, values) = unsafe { (input(x, n), output(values, nonzeros)) };
+    context.evaluate(Function::Jacobian, new_x, |nlp| nlp.jacobian(x, values))
+}
+
+pub(super) unsafe extern "C" fn hessian<N: Nlp + ?Sized>(
+    n: Index,
+    x: *mut Number,
+    new_x: Bool,
+    sigma: Number,
+    m: Index,
+    multipliers: *mut Number,
+    _new_multipliers: Bool,
+    nonzeros: Index,
+    rows: *mut Index,
+    columns: *mut Index,
+    values: *mut Number,
+    user_data: UserDataPtr,
+) -> Bool {
+    // SAFETY: Ipopt passes its user data.
+    let context = unsafe { context::<N>(user_data) };
+    if values.is_null() {
+        // SAFETY: without values, Ipopt passes rows and columns of this length.
+        return unsafe { copy(&context.structure.hessian, nonzeros, rows, columns) };
+    }
+    // SAFETY: with values, Ipopt passes x of length n, multipliers of length m and one value a
+    // nonzero.
+    let (x, multipliers, values) =
+        unsafe { (input(x, n), input(multipliers, m), output(values, nonzeros)) };
+    context.evaluate(Function::Hessian, new_x, |nlp| {
+        nlp.hessian(x, sigma, multipliers, values)
+    })
+}
+
+pub(super) unsafe extern "C" fn intermediate<N: Nlp + ?Sized>(
+    mode: Index,
+    iteration: Index,
+    objective: Number,
+    primal_infeasibility: Number,
+    dual_infeasibility: Number,
+    barrier: Number,
+    _step_norm: Number,
+    regularization: Number,
+    dual_step: Number,
+    primal_step: Number,
+    line_search_trials: Index,
+    user_data: UserDataPtr,
+) -> Bool {
+    // SAFETY: Ipopt passes its user data.
+    let context = unsafe { context::<N>(user_data) };
+    context.report(Progress {
+        iteration: u32::try_from(iteration).unwrap_or(0),
+        restoration: mode != 0,
+        objective,
+        primal_infeasibility,
+        dual_infeasibility,
+        barrier,
+        regularization,
+        steps: [primal_step, dual_step],
+        line_search_trials: u32::try_from(line_search_trials).unwrap_or(0),
+    })
+}
+
+/// Copies a structure to where Ipopt wants it.
+///
+/// # Safety
+/// `rows` and `columns` point to `nonzeros` indices each, or `nonzeros` is 0.
+unsafe fn copy(
+    structure: &Structure,
+    nonzeros: Index,
+    rows: *mut Index,
+    columns: *mut Index,
+) -> Bool {
+    // SAFETY: the caller's promise.
+    let (rows, columns) = unsafe { (output(rows, nonzeros), output(columns, nonzeros)) };
+    let fits = rows.len() == structure.rows.len();
+    if fits {
+        rows.copy_from_slice(&structure.rows);
+        columns.copy_from_slice(&structure.columns);
+    }
+    ip::from_bool(fits)
+}

@@ -1,0 +1,46 @@
+//! Settings of one solve.
+
+/// The value of a solver option given by name.
+#[derive(Debug, Clone, PartialEq)]
+pub enum OptionValue {
+    /// A whole number.
+    Integer(i32),
+    /// A real number.
+    Real(f64),
+    /// A word.
+    Text(String),
+}
+
+/// Settings of one solve. Each field says its default.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Convergence tolerance of the scaled optimality conditions. Default 1e-9.
+    pub tolerance: f64,
+    /// Limit on iterations. Default 500.
+    pub max_iterations: u32,
+    /// Linear solver, by Ipopt's name. Default "mumps".
+    pub linear_solver: String,
+    /// Start from the multipliers of the starting iterate as well, with this barrier
+    /// parameter. Default `None`: a cold start.
+    pub warm_start: Option<f64>,
+    /// Ipopt's own print level on standard output, 0 to 12. Default 0.
+    pub print_level: u8,
+    /// Ask Ipopt where its time went (a few file operations a solve). Default true.
+    pub timing: bool,
+    /// Any other Ipopt option, set last, so that it overrides the fields above.
+    pub options: Vec<(String, OptionValue)>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-9,
+            max_iterations: 500,
+            linear_solver: "mumps".into(),
+            warm_start: None,
+            print_level: 0,
+            timing: true,
+            options: Vec::new(),
+        }
+    }
+}

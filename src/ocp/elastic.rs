@@ -1,0 +1,218 @@
+//! Limits that give way at a price: finds which limits of a problem cannot hold.
+
+use super::{Ends, Formulation, Interval, Ocp, Point, Quantity};
+use crate::autodiff::Scalar;
+
+/// One bound that may give way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limited {
+    /// The bounds of a state along the path.
+    State(usize),
+    /// The bounds of a state at t_f.
+    Terminal(usize),
+    /// The bounds of a control.
+    Control(usize),
+    /// The bounds of a path row.
+    Path(usize),
+}
+
+/// Bounds that belong to one limit of the problem and give way together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LimitGroup {
+    /// What a person calls the limit.
+    pub name: String,
+    /// Its bounds.
+    pub members: Vec<Limited>,
+    /// How much giving way counts as one: typically the size of the bound.
+    pub scale: f64,
+}
+
+/// A problem whose chosen limits may be exceeded, each by an amount e_g ≥ 0 of its own that is
+/// to be as small as possible: minimise Σ e_g + `regularization`·(the problem's own cost).
+///
+/// Each e_g is carried as a state that does not change, so that it couples neighbouring instants
+/// only and the transcription needs no special case.
+#[derive(Debug)]
+pub struct Elastic<'a, O> {
+    inner: &'a O,
+    groups: Vec<LimitGroup>,
+    regularization: f64,
+    base: Formulation,
+    /// Path rows beyond the inner ones: (bound, group, interval).
+    path: Vec<(Limited, usize, Interval)>,
+    boundary: Vec<(usize, usize, Interval)>,
+}
+
+impl<'a, O: Ocp> Elastic<'a, O> {
+    /// `inner` with `groups` made elastic.
+    pub fn new(inner: &'a O, groups: Vec<LimitGroup>, regularization: f64) -> Self {
+        let mut base = inner.formulation();
+        let mut path = Vec::new();
+        let mut boundary = Vec::new();
+        for (g, group) in groups.iter().enumerate() {
+            for &member in &group.members {
+                let freed = match member {
+                    Limited::State(i) => {
+                        // The path rows do not reach t_f, which is a node but no point.
+                        let bounds = base.states[i].bounds;
+                        if !base.terminal[i].is_fixed() {
+                            boundary.push((i, g, bounds));
+                        }
+                        &mut base.states[i].bounds
+                    }
+                    Limited::Terminal(i) => {
+                        boundary.push((i, g, base.terminal[i]));
+                        base.terminal[i] = Interval::FREE;
+                        continue;
+                    }
+                    Limited::Control(i) => &mut base.controls[i].bounds,
+                    Limited::Path(i) => &mut base.path[i].bounds,
+                };
+                path.push((member, g, std::mem::replace(freed, Interval::FREE)));
+            }
+        }
+        Self {
+            inner,
+            groups,
+            regularization,
+            base,
+            path,
+            boundary,
+        }
+    }
+
+    /// The limits that give way.
+    pub fn groups(&self) -> &[LimitGroup] {
+        &self.groups
+    }
+
+    /// Where in the extended state the amounts e_g stand, in units of each group's scale.
+    pub fn amounts(&self) -> std::ops::Range<usize> {
+        let n = self.base.states.len();
+        n..n + self.groups.len()
+    }
+
+    /// The two rows of one elastic bound: value − e·scale and value + e·scale.
+    fn rows(&self, name: &str, group: usize, bounds: Interval) -> [Quantity; 2] {
+        let limit = &self.groups[group].name;
+        [
+            Quantity::new(
+                format!("{name} below {limit}"),
+                Interval::new(f64::NEG_INFINITY, bounds.upper),
+            ),
+            Quantity::new(
+                format!("{name} above {limit}"),
+                Interval::new(bounds.lower, f64::INFINITY),
+            ),
+        ]
+    }
+}
+
+/// Scratch of [`Elastic`].
+#[derive(Debug)]
+pub struct ElasticScratch<S, I> {
+    inner: I,
+    path: Vec<S>,
+}
+
+impl<O: Ocp> Ocp for Elastic<'_, O> {
+    type Scratch<S: Scalar> = ElasticScratch<S, O::Scratch<S>>;
+
+    fn formulation(&self) -> Formulation {
+        let mut formulation = self.base.clone();
+        for &(member, group, bounds) in &self.path {
+            let name = match member {
+                Limited::State(i) | Limited::Terminal(i) => &self.base.states[i].name,
+                Limited::Control(i) => &self.base.controls[i].name,
+                Limited::Path(i) => &self.base.path[i].name,
+            };
+            formulation.path.extend(self.rows(name, group, bounds));
+        }
+        for &(i, group, bounds) in &self.boundary {
+            formulation
+                .boundary
+                .extend(self.rows(&self.base.states[i].name, group, bounds));
+        }
+        for group in &self.groups {
+            let amount = Interval::new(0.0, f64::INFINITY);
+            formulation
+                .states
+                .push(Quantity::new(format!("excess of {}", group.name), amount));
+            formulation.initial.push(Interval::FREE);
+            formulation.terminal.push(Interval::FREE);
+        }
+        formulation
+    }
+
+    fn scratch<S: Scalar>(&self) -> Self::Scratch<S> {
+        ElasticScratch {
+            inner: self.inner.scratch(),
+            path: vec![S::zero(); self.base.path.len()],
+        }
+    }
+
+    fn continuous<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rates: &mut [S],
+        path: &mut [S],
+    ) -> S {
+        let n = self.base.states.len();
+        let (x, amounts) = point.x.split_at(n);
+        let (rates, still) = rates.split_at_mut(n);
+        let cost = self.inner.continuous(
+            Point { x, ..point },
+            &mut scratch.inner,
+            rates,
+            &mut scratch.path,
+        );
+        still.fill(S::zero());
+        let own = scratch.path.len();
+        path[..own].copy_from_slice(&scratch.path);
+        for (rows, &(member, group, _)) in path[own..].chunks_exact_mut(2).zip(&self.path) {
+            let value = match member {
+                Limited::State(i) | Limited::Terminal(i) => x[i],
+                Limited::Control(i) => point.u[i],
+                Limited::Path(i) => scratch.path[i],
+            };
+            let room = amounts[group] * self.groups[group].scale;
+            rows[0] = value - room;
+            rows[1] = value + room;
+        }
+        cost * self.regularization
+    }
+
+    fn boundary<S: Scalar>(
+        &self,
+        ends: Ends<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rows: &mut [S],
+    ) -> S {
+        let n = self.base.states.len();
+        let (x, amounts) = ends.terminal.split_at(n);
+        let (inner_rows, elastic_rows) = rows.split_at_mut(self.base.boundary.len());
+        let inner_ends = Ends {
+            initial: &ends.initial[..n],
+            terminal: x,
+            duration: ends.duration,
+        };
+        let mut cost = self
+            .inner
+            .boundary(inner_ends, &mut scratch.inner, inner_rows)
+            * self.regularization;
+        for (rows, &(i, group, _)) in elastic_rows.chunks_exact_mut(2).zip(&self.boundary) {
+            let room = amounts[group] * self.groups[group].scale;
+            rows[0] = x[i] - room;
+            rows[1] = x[i] + room;
+        }
+        for &amount in amounts {
+            cost += amount;
+        }
+        cost
+    }
+
+    fn has_branches(&self) -> bool {
+        self.inner.has_branches()
+    }
+}

@@ -1,0 +1,114 @@
+//! The optimal control problem as a trait.
+
+use super::Interval;
+use crate::autodiff::Scalar;
+
+/// A named quantity with its bounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// What a person calls it ("joint 2 rate").
+    pub name: String,
+    /// Bounds along the whole path (states, controls, path rows) or at the ends (boundary rows).
+    pub bounds: Interval,
+}
+
+impl Quantity {
+    /// A quantity within bounds.
+    pub fn new(name: impl Into<String>, bounds: Interval) -> Self {
+        Self {
+            name: name.into(),
+            bounds,
+        }
+    }
+}
+
+/// What there is to decide and within which bounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formulation {
+    /// States x, with their bounds along the path.
+    pub states: Vec<Quantity>,
+    /// Controls u, with their bounds.
+    pub controls: Vec<Quantity>,
+    /// Rows of the path constraint C, eq. (18), held at the collocation points.
+    pub path: Vec<Quantity>,
+    /// Rows of the boundary constraint E, eq. (18), beyond what `initial` and `terminal` say.
+    pub boundary: Vec<Quantity>,
+    /// Bounds of each state at t₀.
+    pub initial: Vec<Interval>,
+    /// Bounds of each state at t_f.
+    pub terminal: Vec<Interval>,
+    /// Bounds of the duration t_f − t₀ in s; fixed where both are equal. t₀ is 0.
+    pub duration: Interval,
+}
+
+impl Formulation {
+    /// Number of states and of controls.
+    pub fn widths(&self) -> (usize, usize) {
+        (self.states.len(), self.controls.len())
+    }
+}
+
+/// One instant on the path.
+#[derive(Debug, Clone, Copy)]
+pub struct Point<'a, S> {
+    /// States, in the order of [`Formulation::states`].
+    pub x: &'a [S],
+    /// Controls.
+    pub u: &'a [S],
+    /// Time, s.
+    pub t: S,
+}
+
+/// Both ends of the path.
+#[derive(Debug, Clone, Copy)]
+pub struct Ends<'a, S> {
+    /// States at t₀.
+    pub initial: &'a [S],
+    /// States at t_f.
+    pub terminal: &'a [S],
+    /// Duration t_f − t₀, s.
+    pub duration: S,
+}
+
+/// An optimal control problem in Bolza form, eq. (17) and (18).
+///
+/// Minimise Φ(ends) + ∫ℒ dt subject to ẋ = f, path and boundary constraints and bounds. All
+/// functions are generic over [`Scalar`], from which values, gradients and Hessians follow; they
+/// must be smooth where they are evaluated. Sparsity is found by sampling derivatives at random
+/// points of the bounds' box; a problem with branches says so by [`Ocp::has_branches`].
+pub trait Ocp: Sync {
+    /// Mutable scratch for one number type, so that nothing is allocated in the solve.
+    type Scratch<S: Scalar>;
+
+    /// Quantities and bounds. Called at set-up only.
+    fn formulation(&self) -> Formulation;
+
+    /// Fresh scratch.
+    fn scratch<S: Scalar>(&self) -> Self::Scratch<S>;
+
+    /// Writes f into `rates` and the path rows C into `path`; returns the running cost ℒ.
+    fn continuous<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rates: &mut [S],
+        path: &mut [S],
+    ) -> S;
+
+    /// Writes the boundary rows E into `rows`; returns the terminal cost Φ.
+    fn boundary<S: Scalar>(
+        &self,
+        ends: Ends<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rows: &mut [S],
+    ) -> S {
+        let _ = (ends, scratch, rows);
+        S::zero()
+    }
+
+    /// Whether derivatives may vanish in one region and not in another, so that sampling could
+    /// miss a nonzero. Every derivative is then kept in the sparsity pattern.
+    fn has_branches(&self) -> bool {
+        false
+    }
+}

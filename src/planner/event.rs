@@ -1,0 +1,17 @@
+//! What a monitor sees while a plan is made.
+
+use crate::refine;
+
+/// A step of planning, for a progress line; the monitor's answer can stop it.
+#[derive(Debug, Clone, Copy)]
+pub enum Event<'a> {
+    /// A step of the refinement loop.
+    Refinement(refine::Event<'a>),
+    /// The diagnosis of an infeasible problem tries one more start.
+    Diagnosing {
+        /// Counted from 1.
+        start: usize,
+        /// Number of starts.
+        of: usize,
+    },
+}

@@ -1,0 +1,331 @@
+//! The free-floating manipulator as an optimal control problem, eq. (7) to (18).
+
+use super::Problem;
+use crate::autodiff::Scalar;
+use crate::dynamics::attitude::{Attitude, base_position};
+use crate::dynamics::space::{Planar, Spatial, Vector};
+use crate::dynamics::{Data, Tree};
+use crate::ocp::{Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Point, Quantity};
+
+/// States x = [η, θ, θ̇], controls u = H⁻¹τ.
+///
+/// The paper's state is [θ, θ̇]; the base attitude joins it because its limits (10) and its cost
+/// (14) need it. Path rows, where limited: the rates η̇, then the torques τ = Hu.
+#[derive(Debug, Clone)]
+pub struct FreeFloating<Sp: Attitude> {
+    tree: Tree<Sp>,
+    formulation: Formulation,
+    cost: super::Cost,
+    start_position: Sp::Linear<f64>,
+    rate_rows: bool,
+    torque_rows: bool,
+    torque_cost: bool,
+}
+
+impl FreeFloating<Planar> {
+    /// The planar form of `problem`, or `None` where its motion leaves the plane.
+    pub fn planar(problem: &Problem) -> Option<Self> {
+        Some(Self::new(problem, Tree::planar(&problem.robot)?))
+    }
+}
+
+impl FreeFloating<Spatial> {
+    /// The spatial form of `problem`.
+    pub fn spatial(problem: &Problem) -> Self {
+        Self::new(problem, Tree::spatial(&problem.robot))
+    }
+}
+
+impl<Sp: Attitude> FreeFloating<Sp> {
+    fn new(problem: &Problem, tree: Tree<Sp>) -> Self {
+        let limits = &problem.limits;
+        let limited = |bounds: &[Interval]| bounds.iter().any(|b| !b.is_free());
+        let rate_rows = limited(&limits.base_rate);
+        let torque_rows = limited(&limits.torque);
+        let mut data = Data::<Sp, f64>::new(&tree);
+        tree.kinematics(&problem.task.initial_joints, &mut data);
+        tree.momentum(&mut data);
+        let level = vec![0.0; Sp::ANGLES];
+        Self {
+            formulation: formulation::<Sp>(problem, rate_rows, torque_rows),
+            cost: problem.cost.clone(),
+            start_position: base_position::<Sp, f64>(&level, &data.system_center),
+            rate_rows,
+            torque_rows,
+            torque_cost: problem.cost.torque.iter().any(|w| *w > 0.0),
+            tree,
+        }
+    }
+
+    /// The dynamics behind the problem.
+    pub fn tree(&self) -> &Tree<Sp> {
+        &self.tree
+    }
+
+    /// Number of joints n.
+    pub fn joint_count(&self) -> usize {
+        self.tree.joint_count()
+    }
+
+    /// Whether the first path rows are the rates η̇.
+    pub fn limits_base_rate(&self) -> bool {
+        self.rate_rows
+    }
+
+    /// Limits that may be what makes the problem infeasible, each with its key in the problem
+    /// file. Base attitude along the path and at t_f give way together.
+    pub fn limit_groups(&self) -> Vec<LimitGroup> {
+        let n = self.joint_count();
+        let states = &self.formulation.states;
+        let scale = |bounds: &Interval| {
+            let finite = [bounds.lower, bounds.upper].map(f64::abs);
+            finite
+                .into_iter()
+                .filter(|b| b.is_finite())
+                .fold(0.0, f64::max)
+                .max(1e-3)
+        };
+        let mut groups = Vec::new();
+        let mut push = |name: String, members: Vec<Limited>, bounds: &Interval| {
+            if !members.is_empty() {
+                groups.push(LimitGroup {
+                    name,
+                    members,
+                    scale: scale(bounds),
+                });
+            }
+        };
+        for i in 0..Sp::ANGLES {
+            let along = states[i].bounds;
+            let at_end = self.formulation.terminal[i];
+            let members = [(along, Limited::State(i)), (at_end, Limited::Terminal(i))];
+            let tightest = along.intersect(&at_end);
+            let members = members
+                .into_iter()
+                .filter(|(b, _)| !b.is_free())
+                .map(|(_, m)| m)
+                .collect();
+            push(states[i].name.clone(), members, &tightest);
+        }
+        for (i, row) in self
+            .formulation
+            .path
+            .iter()
+            .enumerate()
+            .filter(|(_, r)| !r.bounds.is_free())
+        {
+            push(row.name.clone(), vec![Limited::Path(i)], &row.bounds);
+        }
+        // Positions before rates: where both could give way, the cheaper one is found anyway.
+        for (i, state) in states.iter().enumerate().skip(Sp::ANGLES).take(2 * n) {
+            if !state.bounds.is_free() {
+                push(state.name.clone(), vec![Limited::State(i)], &state.bounds);
+            }
+        }
+        for (j, control) in self.formulation.controls.iter().enumerate() {
+            if !control.bounds.is_free() {
+                push(
+                    control.name.clone(),
+                    vec![Limited::Control(j)],
+                    &control.bounds,
+                );
+            }
+        }
+        groups
+    }
+}
+
+fn formulation<Sp: Attitude>(problem: &Problem, rate_rows: bool, torque_rows: bool) -> Formulation {
+    let n = problem.robot.joint_count();
+    let (task, limits) = (&problem.task, &problem.limits);
+    let joints = |what: &str, bounds: &[Interval]| -> Vec<Quantity> {
+        let named =
+            |(j, b): (usize, &Interval)| Quantity::new(format!("joint {} {what}", j + 1), *b);
+        bounds.iter().enumerate().map(named).collect()
+    };
+    let angles = |suffix: &str, bounds: &[Interval]| -> Vec<Quantity> {
+        let named = |(name, b): (&&str, &Interval)| Quantity::new(format!("{name}{suffix}"), *b);
+        Sp::NAMES.iter().zip(bounds).map(named).collect()
+    };
+    let fixed = |values: &[f64]| {
+        values
+            .iter()
+            .copied()
+            .map(Interval::fixed)
+            .collect::<Vec<_>>()
+    };
+    let mut path = Vec::new();
+    if rate_rows {
+        path.extend(angles(" rate", &limits.base_rate));
+    }
+    if torque_rows {
+        path.extend(joints("torque", &limits.torque));
+    }
+    let rest = vec![0.0; n];
+    Formulation {
+        states: [
+            angles("", &limits.base_attitude),
+            joints("position", &limits.joint_position),
+            joints("rate", &limits.joint_velocity),
+        ]
+        .concat(),
+        controls: joints("control", &limits.control),
+        path,
+        boundary: Vec::new(),
+        initial: [
+            fixed(&vec![0.0; Sp::ANGLES]),
+            fixed(&task.initial_joints),
+            fixed(&task.initial_rates),
+        ]
+        .concat(),
+        terminal: [
+            limits.final_base_attitude.clone(),
+            fixed(&task.final_joints),
+            fixed(&rest),
+        ]
+        .concat(),
+        duration: task.duration,
+    }
+}
+
+/// Scratch of [`FreeFloating`].
+#[derive(Debug, Clone)]
+pub struct Scratch<Sp: Attitude, S: Scalar> {
+    data: Data<Sp, S>,
+    /// H⁻¹Cθ̇.
+    coriolis: Vec<S>,
+    /// τ = Hu.
+    torque: Vec<S>,
+}
+
+impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
+    type Scratch<S: Scalar> = Scratch<Sp, S>;
+
+    fn formulation(&self) -> Formulation {
+        self.formulation.clone()
+    }
+
+    fn scratch<S: Scalar>(&self) -> Scratch<Sp, S> {
+        let n = self.joint_count();
+        Scratch {
+            data: Data::new(&self.tree),
+            coriolis: vec![S::zero(); n],
+            torque: vec![S::zero(); n],
+        }
+    }
+
+    fn continuous<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        scratch: &mut Scratch<Sp, S>,
+        rates: &mut [S],
+        path: &mut [S],
+    ) -> S {
+        let n = self.joint_count();
+        let (eta, joints) = point.x.split_at(Sp::ANGLES);
+        let (theta, dtheta) = joints.split_at(n);
+        let data = &mut scratch.data;
+        self.tree.kinematics(theta, data);
+        self.tree.momentum(data);
+        self.tree.base_rate(dtheta, data);
+        self.tree.mass_matrix(data);
+        self.tree.bias(dtheta, data);
+        data.factors.factor(&data.mass_matrix);
+        scratch.coriolis.copy_from_slice(&data.bias);
+        data.factors.solve(&mut scratch.coriolis);
+
+        let (eta_rates, joint_rates) = rates.split_at_mut(Sp::ANGLES);
+        Sp::rates(eta, &data.base_rate, eta_rates);
+        let (velocities, accelerations) = joint_rates.split_at_mut(n);
+        velocities.copy_from_slice(dtheta);
+        for (a, (&u, &c)) in accelerations
+            .iter_mut()
+            .zip(point.u.iter().zip(&scratch.coriolis))
+        {
+            *a = u - c;
+        }
+        if self.torque_rows || self.torque_cost {
+            torques(&data.mass_matrix, point.u, &mut scratch.torque);
+        }
+        let (rate_rows, torque_rows) =
+            path.split_at_mut(if self.rate_rows { Sp::ANGLES } else { 0 });
+        if self.rate_rows {
+            rate_rows.copy_from_slice(eta_rates);
+        }
+        if self.torque_rows {
+            torque_rows.copy_from_slice(&scratch.torque);
+        }
+        self.running_cost(eta_rates, dtheta, point.u, &scratch.torque)
+    }
+
+    fn boundary<S: Scalar>(
+        &self,
+        ends: Ends<'_, S>,
+        scratch: &mut Scratch<Sp, S>,
+        _rows: &mut [S],
+    ) -> S {
+        let (eta, joints) = ends.terminal.split_at(Sp::ANGLES);
+        let mut cost = weighted_squares(&self.cost.final_base_attitude, eta);
+        if self.cost.final_base_position.iter().any(|w| *w > 0.0) {
+            let data = &mut scratch.data;
+            self.tree.kinematics(&joints[..self.joint_count()], data);
+            self.tree.momentum(data);
+            let end = base_position::<Sp, S>(eta, &data.system_center);
+            let weights = &self.cost.final_base_position;
+            let start = self.start_position.components();
+            for ((&weight, &z), &z0) in weights.iter().zip(end.components()).zip(start) {
+                cost += (z - z0).square() * weight;
+            }
+        }
+        cost
+    }
+}
+
+impl<Sp: Attitude> FreeFloating<Sp> {
+    /// ℒ of (14), with the weights on u and τ.
+    fn running_cost<S: Scalar>(&self, eta_rates: &[S], dtheta: &[S], u: &[S], torque: &[S]) -> S {
+        let cost = &self.cost;
+        let mut sum = weighted_squares(&cost.base_rate, eta_rates)
+            + weighted_squares(&cost.joint_rate, dtheta)
+            + weighted_squares(&cost.control, u);
+        if self.torque_cost {
+            sum += weighted_squares(&cost.torque, torque);
+        }
+        if let Some(matrix) = &cost.rate_matrix {
+            let rate = |i: usize| {
+                if i < Sp::ANGLES {
+                    eta_rates[i]
+                } else {
+                    dtheta[i - Sp::ANGLES]
+                }
+            };
+            for (i, row) in matrix.iter().enumerate() {
+                for (j, &weight) in row.iter().enumerate().filter(|(_, w)| **w != 0.0) {
+                    sum += rate(i) * rate(j) * weight;
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Σ wᵢ vᵢ², leaving out what has no weight.
+fn weighted_squares<S: Scalar>(weights: &[f64], values: &[S]) -> S {
+    let mut sum = S::zero();
+    for (&weight, value) in weights.iter().zip(values).filter(|(w, _)| **w != 0.0) {
+        sum += value.square() * weight;
+    }
+    sum
+}
+
+/// τ = Hu from the lower triangle of H.
+pub(super) fn torques<S: Scalar>(mass_matrix: &[S], u: &[S], torque: &mut [S]) {
+    let n = u.len();
+    for i in 0..n {
+        let mut sum = S::zero();
+        for (j, &uj) in u.iter().enumerate() {
+            sum += mass_matrix[i.max(j) * n + i.min(j)] * uj;
+        }
+        torque[i] = sum;
+    }
+}

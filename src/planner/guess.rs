@@ -1,0 +1,119 @@
+//! Starting trajectories: joints through way-points, the base following by momentum.
+
+use super::{FreeFloating, Problem};
+use crate::collocation::Mesh;
+use crate::dynamics::Data;
+use crate::dynamics::attitude::Attitude;
+use crate::transcription::Discretization;
+
+/// Steps of the base's integration along the whole motion.
+const STEPS: usize = 400;
+
+/// A joint path from rest to rest through way-points, one quintic a leg, the time shared out by
+/// each leg's length.
+#[derive(Debug, Clone)]
+pub(super) struct JointPath {
+    points: Vec<Vec<f64>>,
+    /// Fraction of the duration at which each point is reached.
+    at: Vec<f64>,
+}
+
+impl JointPath {
+    pub fn new(problem: &Problem, way_points: Vec<Vec<f64>>) -> Self {
+        let mut points = vec![problem.task.initial_joints.clone()];
+        points.extend(way_points);
+        points.push(problem.task.final_joints.clone());
+        let mut at = vec![0.0];
+        for pair in points.windows(2) {
+            let leg = pair[0]
+                .iter()
+                .zip(&pair[1])
+                .map(|(a, b)| (b - a).abs())
+                .fold(0.0, f64::max);
+            at.push(at[at.len() - 1] + leg.max(1e-6));
+        }
+        let total = at[at.len() - 1];
+        at.iter_mut().for_each(|t| *t /= total);
+        Self { points, at }
+    }
+
+    /// Positions, and first and second derivatives by the fraction of the duration.
+    fn at_fraction(&self, fraction: f64, q: &mut [f64], dq: &mut [f64], ddq: &mut [f64]) {
+        let leg = self
+            .at
+            .partition_point(|&t| t <= fraction)
+            .clamp(1, self.at.len() - 1)
+            - 1;
+        let width = self.at[leg + 1] - self.at[leg];
+        let p = (fraction - self.at[leg]) / width;
+        let blend = p * p * p * (10.0 + p * (6.0 * p - 15.0));
+        let slope = 30.0 * p * p * (1.0 - p) * (1.0 - p) / width;
+        let bend = 60.0 * p * (1.0 - p) * (1.0 - 2.0 * p) / (width * width);
+        for (i, (a, b)) in self.points[leg]
+            .iter()
+            .zip(&self.points[leg + 1])
+            .enumerate()
+        {
+            q[i] = a + blend * (b - a);
+            dq[i] = slope * (b - a);
+            ddq[i] = bend * (b - a);
+        }
+    }
+}
+
+/// The joint path on `mesh`, with the base attitude that momentum conservation gives.
+pub(super) fn along<Sp: Attitude>(
+    problem: &FreeFloating<Sp>,
+    duration: f64,
+    path: &JointPath,
+    mesh: Mesh,
+) -> Discretization {
+    let n = problem.joint_count();
+    let attitude = follow(problem, path);
+    let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    Discretization::sample(mesh, duration, Sp::ANGLES + 2 * n, n, |fraction, x, u| {
+        path.at_fraction(fraction, &mut q, &mut dq, &mut ddq);
+        let position = fraction * STEPS as f64;
+        let (k, share) = (position as usize, position.fract());
+        let (a, b) = (&attitude[k.min(STEPS)], &attitude[(k + 1).min(STEPS)]);
+        for i in 0..Sp::ANGLES {
+            x[i] = a[i] + share * (b[i] - a[i]);
+        }
+        for j in 0..n {
+            x[Sp::ANGLES + j] = q[j];
+            x[Sp::ANGLES + n + j] = dq[j] / duration;
+            u[j] = ddq[j] / (duration * duration);
+        }
+    })
+}
+
+/// Base attitude on an even grid along the path, by the midpoint rule; independent of the time
+/// the motion takes.
+fn follow<Sp: Attitude>(problem: &FreeFloating<Sp>, path: &JointPath) -> Vec<Vec<f64>> {
+    let n = problem.joint_count();
+    let tree = problem.tree();
+    let mut data = Data::<Sp, f64>::new(tree);
+    let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    let mut rates = vec![0.0; Sp::ANGLES];
+    let mut middle = vec![0.0; Sp::ANGLES];
+    let mut attitude = vec![vec![0.0; Sp::ANGLES]];
+    for k in 0..STEPS {
+        path.at_fraction((k as f64 + 0.5) / STEPS as f64, &mut q, &mut dq, &mut ddq);
+        tree.kinematics(&q, &mut data);
+        tree.momentum(&mut data);
+        tree.base_rate(&dq, &mut data);
+        let eta = &attitude[k];
+        Sp::rates(eta, &data.base_rate, &mut rates);
+        for i in 0..Sp::ANGLES {
+            middle[i] = eta[i] + 0.5 * rates[i] / STEPS as f64;
+        }
+        Sp::rates(&middle, &data.base_rate, &mut rates);
+        let next = eta
+            .iter()
+            .zip(&rates)
+            .map(|(a, r)| a + r / STEPS as f64)
+            .collect();
+        attitude.push(next);
+    }
+    attitude
+}

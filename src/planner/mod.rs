@@ -1,0 +1,19 @@
+//! Planners: from a [`Problem`] to a [`Plan`].
+
+mod diagnosis;
+mod event;
+mod free_floating;
+mod guess;
+mod plan;
+mod planner;
+mod problem;
+mod straight_line;
+mod trajectory;
+
+pub use crate::refine::Start;
+pub use event::Event;
+pub use free_floating::FreeFloating;
+pub use plan::{Diagnosis, LimitFinding, Metrics, Plan, Status, Timing, Trajectory};
+pub use planner::{PlanError, Planner, plan};
+pub use problem::{Cost, Limits, Problem, ProblemError, Task};
+pub use straight_line::{StraightLine, straight_line};

@@ -1,0 +1,267 @@
+//! Plans by the adaptive or the global Radau pseudospectral method.
+
+use super::guess::{JointPath, along};
+use super::trajectory::{metrics, trajectory};
+use super::{Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, diagnosis};
+use crate::collocation::MeshError;
+use crate::dynamics::attitude::Attitude;
+use crate::nlp::{self, Control, ipopt};
+use crate::refine::{Outcome, Refinement, Start};
+use crate::transcription::Patterns;
+
+use std::time::{Duration, Instant};
+
+/// Barrier parameter a saved solution is taken up with.
+const WARM_BARRIER: f64 = 1e-4;
+
+/// Why there is no plan at all.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// The problem cannot be.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+    /// The mesh cannot be.
+    #[error("mesh: {0}")]
+    Mesh(#[from] MeshError),
+    /// The solver refused it.
+    #[error("Ipopt: {0}")]
+    Ipopt(#[from] ipopt::IpoptError),
+    /// A warm start that belongs to another robot.
+    #[error(
+        "warm start: the trajectory has {found} states and {controls} controls; the problem has {expected} and {joints}"
+    )]
+    Start {
+        /// States of the trajectory.
+        found: usize,
+        /// Controls of the trajectory.
+        controls: usize,
+        /// States of the problem.
+        expected: usize,
+        /// Joints of the problem.
+        joints: usize,
+    },
+}
+
+/// Plans `problem` with a fresh [`Planner`].
+///
+/// # Errors
+/// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
+pub fn plan(problem: &Problem) -> Result<Plan, PlanError> {
+    Planner::new().plan(problem)
+}
+
+/// Plans problems one after another and keeps what they share.
+///
+/// Sparsity patterns are found once for each robot and set of limits; problems that differ in
+/// task, weights' sizes or bounds' values alone reuse them.
+#[derive(Debug, Default)]
+pub struct Planner {
+    patterns: Option<(Problem, Patterns)>,
+}
+
+impl Planner {
+    /// A planner with nothing kept yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Plans `problem` from a straight joint path.
+    ///
+    /// # Errors
+    /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
+    pub fn plan(&mut self, problem: &Problem) -> Result<Plan, PlanError> {
+        self.plan_with(problem, None, &mut |_| Control::Continue)
+    }
+
+    /// Plans `problem` from `start`, telling `monitor` of every step.
+    ///
+    /// A start with multipliers makes the first solve a warm one.
+    ///
+    /// # Errors
+    /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
+    pub fn plan_with(
+        &mut self,
+        problem: &Problem,
+        start: Option<&Start>,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+    ) -> Result<Plan, PlanError> {
+        let began = Instant::now();
+        problem.validate()?;
+        match FreeFloating::planar(problem) {
+            Some(planar) => self.run(problem, &planar, start, monitor, began),
+            None => self.run(
+                problem,
+                &FreeFloating::spatial(problem),
+                start,
+                monitor,
+                began,
+            ),
+        }
+    }
+
+    fn run<Sp: Attitude>(
+        &mut self,
+        problem: &Problem,
+        system: &FreeFloating<Sp>,
+        start: Option<&Start>,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+        began: Instant,
+    ) -> Result<Plan, PlanError> {
+        let patterns = self.patterns(problem, system);
+        let mut solver = problem.solver.clone();
+        let start = match start {
+            Some(given) => {
+                check_start::<Sp>(given, problem)?;
+                if given.iterate.is_some() {
+                    solver.warm_start.get_or_insert(WARM_BARRIER);
+                }
+                given.clone()
+            }
+            None => {
+                let path = JointPath::new(problem, Vec::new());
+                let duration = problem.task.duration.center();
+                let mesh = problem.mesh.first_mesh()?;
+                Start {
+                    trajectory: along(system, duration, &path, mesh),
+                    iterate: None,
+                }
+            }
+        };
+        let refinement = Refinement {
+            ocp: system,
+            patterns,
+            settings: &problem.mesh,
+            solver: &solver,
+        };
+        let mut stopped = false;
+        let mut outcome = refinement.run(&start, &mut |event| {
+            let control = monitor(&Event::Refinement(event));
+            stopped |= control == Control::Stop;
+            control
+        })?;
+        let mut status = grade(&outcome, stopped);
+        let mut finding = None;
+        if status == Status::NotConverged && !outcome.status.is_solved() {
+            let diagnosed = diagnosis::diagnose(problem, system, &outcome.trajectory, monitor)?;
+            outcome.statistics.add(&diagnosed.statistics);
+            if diagnosed.interrupted {
+                status = Status::Interrupted;
+            } else if let Some(found) = diagnosed.diagnosis {
+                status = Status::Infeasible;
+                outcome.trajectory = diagnosed.trajectory;
+                finding = Some(found);
+            } else if diagnosed.feasible {
+                // A point within all limits exists: plan again from there.
+                let again = Start {
+                    trajectory: diagnosed.trajectory,
+                    iterate: None,
+                };
+                let mut second = refinement.run(&again, &mut |event| {
+                    let control = monitor(&Event::Refinement(event));
+                    stopped |= control == Control::Stop;
+                    control
+                })?;
+                second.records = [outcome.records, second.records].concat();
+                second.statistics.add(&outcome.statistics);
+                outcome = second;
+                status = grade(&outcome, stopped);
+            }
+        }
+        let verification = None;
+        let trajectory = trajectory(system, &outcome.trajectory);
+        Ok(Plan {
+            status,
+            method: problem.mesh.method,
+            objective: outcome.objective,
+            tolerance: problem.mesh.tolerance,
+            max_error: outcome.max_error(),
+            metrics: metrics(&trajectory),
+            timing: timing(&outcome.statistics, began.elapsed()),
+            iterations: outcome.records,
+            discretization: outcome.trajectory,
+            iterate: outcome.iterate,
+            trajectory,
+            verification,
+            diagnosis: finding,
+        })
+    }
+
+    /// Sparsity of `problem`, found anew only where the robot or the shape of the problem differ
+    /// from the last one's.
+    fn patterns<Sp: Attitude>(
+        &mut self,
+        problem: &Problem,
+        system: &FreeFloating<Sp>,
+    ) -> &Patterns {
+        let known = self
+            .patterns
+            .as_ref()
+            .is_some_and(|(last, _)| same_shape(last, problem));
+        if !known {
+            self.patterns = Some((problem.clone(), Patterns::detect(system)));
+        }
+        &self.patterns.as_ref().expect("just set").1
+    }
+}
+
+/// Whether two problems have the same derivatives nonzero.
+fn same_shape(a: &Problem, b: &Problem) -> bool {
+    let zero = |w: &[f64]| w.iter().map(|w| *w == 0.0).collect::<Vec<_>>();
+    let weights = |p: &Problem| {
+        let c = &p.cost;
+        [
+            &c.final_base_attitude,
+            &c.final_base_position,
+            &c.base_rate,
+            &c.joint_rate,
+            &c.control,
+            &c.torque,
+        ]
+        .map(|w| zero(w))
+    };
+    let limited = |p: &Problem| {
+        [&p.limits.base_rate, &p.limits.torque].map(|b| b.iter().any(|b| !b.is_free()))
+    };
+    a.robot == b.robot
+        && weights(a) == weights(b)
+        && a.cost.rate_matrix == b.cost.rate_matrix
+        && limited(a) == limited(b)
+        && a.task.duration.is_fixed() == b.task.duration.is_fixed()
+}
+
+fn check_start<Sp: Attitude>(start: &Start, problem: &Problem) -> Result<(), PlanError> {
+    let joints = problem.robot.joint_count();
+    let expected = Sp::ANGLES + 2 * joints;
+    let (found, controls) = (start.trajectory.states, start.trajectory.controls);
+    if (found, controls) == (expected, joints) {
+        Ok(())
+    } else {
+        Err(PlanError::Start {
+            found,
+            controls,
+            expected,
+            joints,
+        })
+    }
+}
+
+fn grade(outcome: &Outcome, stopped: bool) -> Status {
+    if stopped || outcome.status == nlp::Status::Interrupted {
+        Status::Interrupted
+    } else if outcome.converged {
+        Status::Solved
+    } else {
+        Status::NotConverged
+    }
+}
+
+fn timing(statistics: &nlp::Statistics, total: Duration) -> Timing {
+    let known = statistics.derivatives + statistics.linear_solver;
+    Timing {
+        setup: total.saturating_sub(statistics.total),
+        derivatives: statistics.derivatives,
+        linear_solver: statistics.linear_solver,
+        ipopt_other: statistics.total.saturating_sub(known),
+        total,
+    }
+}

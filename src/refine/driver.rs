@@ -1,0 +1,204 @@
+//! Solves on one mesh after another until the error is within the tolerance.
+
+use super::transfer::{Duals, resample};
+use super::{Record, Settings, midpoint_errors, quadrature_error, refine};
+use crate::collocation::Mesh;
+use crate::nlp::{self, Control, Iterate, Progress, Statistics, Status, ipopt};
+use crate::ocp::Ocp;
+use crate::transcription::{Discretization, Layout, Patterns, Transcription};
+use std::time::Instant;
+
+/// Barrier parameter that a refined mesh starts with.
+const REFINED_BARRIER: f64 = 1e-6;
+
+/// A step of the loop, for a monitor.
+#[derive(Debug, Clone, Copy)]
+pub enum Event<'a> {
+    /// A mesh iteration begins.
+    Mesh {
+        /// Counted from 1.
+        iteration: usize,
+        /// Number of segments.
+        segments: usize,
+        /// Number of collocation points.
+        points: usize,
+    },
+    /// An iteration of the solver on the current mesh.
+    Solver(&'a Progress),
+    /// A mesh iteration ended.
+    Solved(&'a Record),
+}
+
+/// Where the loop starts from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// The first mesh and a trajectory on it.
+    pub trajectory: Discretization,
+    /// Multipliers that belong to the trajectory, for a warm start.
+    pub iterate: Option<Iterate>,
+}
+
+/// Where the loop ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// The last trajectory.
+    pub trajectory: Discretization,
+    /// Its primal and dual values.
+    pub iterate: Iterate,
+    /// How the last solve ended.
+    pub status: Status,
+    /// Objective of the last solve.
+    pub objective: f64,
+    /// One record a mesh iteration.
+    pub records: Vec<Record>,
+    /// Whether the last solve succeeded with its largest error within the tolerance.
+    pub converged: bool,
+    /// Times of all solves together.
+    pub statistics: Statistics,
+}
+
+impl Outcome {
+    /// Largest error (28) on the last mesh.
+    pub fn max_error(&self) -> f64 {
+        self.records
+            .last()
+            .map_or(f64::INFINITY, |record| record.max_error)
+    }
+}
+
+/// One problem with its settings, ready to be solved on a sequence of meshes.
+pub struct Refinement<'a, O: Ocp> {
+    /// The problem.
+    pub ocp: &'a O,
+    /// Its sparsity.
+    pub patterns: &'a Patterns,
+    /// Mesh and refinement.
+    pub settings: &'a Settings,
+    /// The solver.
+    pub solver: &'a nlp::Settings,
+}
+
+impl<O: Ocp> Refinement<'_, O> {
+    /// A straight line between the ends of every state on the first mesh, at rest controls.
+    ///
+    /// # Errors
+    /// Where the settings give no mesh.
+    pub fn straight_start(&self) -> Result<Start, crate::collocation::MeshError> {
+        let formulation = self.ocp.formulation();
+        let mesh = self.settings.first_mesh()?;
+        let (states, controls) = formulation.widths();
+        let duration = formulation.duration.center();
+        let trajectory = Discretization::sample(mesh, duration, states, controls, |part, x, u| {
+            for (i, value) in x.iter_mut().enumerate() {
+                let bounds = &formulation.states[i].bounds;
+                let start = formulation.initial[i].intersect(bounds).center();
+                let end = formulation.terminal[i].intersect(bounds).center();
+                *value = start + part * (end - start);
+            }
+            for (value, control) in u.iter_mut().zip(&formulation.controls) {
+                *value = control.bounds.clamp(0.0);
+            }
+        });
+        Ok(Start {
+            trajectory,
+            iterate: None,
+        })
+    }
+
+    /// Solves on the start's mesh, then on refined ones.
+    ///
+    /// The monitor is told of each step and can stop the loop. A failed solve ends it; the
+    /// outcome then holds the last trajectory all the same.
+    ///
+    /// # Errors
+    /// What the solver refuses before it begins.
+    pub fn run(
+        &self,
+        start: &Start,
+        monitor: &mut dyn FnMut(Event<'_>) -> Control,
+    ) -> Result<Outcome, ipopt::IpoptError> {
+        let mut records: Vec<Record> = Vec::new();
+        let mut statistics = Statistics::default();
+        let mut trajectory = start.trajectory.clone();
+        let mut previous: Option<(Mesh, Layout, Iterate)> = None;
+        loop {
+            let began = Instant::now();
+            let mesh = trajectory.mesh.clone();
+            let event = Event::Mesh {
+                iteration: records.len() + 1,
+                segments: mesh.segments(),
+                points: mesh.points(),
+            };
+            let stopped = monitor(event) == Control::Stop;
+            let mut program = Transcription::new(self.ocp, self.patterns, mesh.clone());
+            let x = program.pack(&trajectory);
+            let mut settings = self.solver.clone();
+            let iterate = match (&previous, &start.iterate) {
+                (Some((mesh, layout, iterate)), _) => {
+                    settings.warm_start = Some(REFINED_BARRIER);
+                    Duals::new(mesh, layout, iterate).on(&trajectory.mesh, program.layout(), x)
+                }
+                (None, Some(warm)) if settings.warm_start.is_some() => {
+                    Iterate { x, ..warm.clone() }
+                }
+                _ => {
+                    settings.warm_start = None;
+                    Iterate::primal(x)
+                }
+            };
+            let solution = ipopt::solve(&mut program, &settings, &iterate, &mut |progress| {
+                if stopped {
+                    Control::Stop
+                } else {
+                    monitor(Event::Solver(progress))
+                }
+            })?;
+            statistics.add(&solution.statistics);
+            trajectory = program.unpack(&solution.iterate.x);
+            let errors = midpoint_errors(self.ocp, &trajectory);
+            let max_error = errors.max();
+            let usable = solution.status.is_solved();
+            let within = usable && max_error <= self.settings.tolerance;
+            let last = match self.settings.method {
+                super::Method::Adaptive => records.len() + 1 >= self.settings.max_iterations,
+                super::Method::Global => false,
+            };
+            let next = if !usable || within || last {
+                None
+            } else {
+                refine(self.settings, &trajectory, &errors)
+            };
+            records.push(Record {
+                points: mesh.points(),
+                segments: mesh.segments(),
+                breakpoints: mesh.breakpoints().to_vec(),
+                quadrature_error: quadrature_error(self.ocp, &trajectory),
+                segment_errors: errors.by_segment,
+                max_error,
+                objective: solution.objective,
+                nlp_iterations: solution.statistics.iterations,
+                nlp_status: solution.status,
+                time: began.elapsed(),
+                decisions: next.as_ref().map_or_else(Vec::new, |(_, d)| d.clone()),
+            });
+            let halt = monitor(Event::Solved(&records[records.len() - 1])) == Control::Stop;
+            match next {
+                Some((finer, _)) if !halt => {
+                    previous = Some((mesh, *program.layout(), solution.iterate));
+                    trajectory = resample(&trajectory, finer);
+                }
+                _ => {
+                    return Ok(Outcome {
+                        trajectory,
+                        iterate: solution.iterate,
+                        status: solution.status,
+                        objective: solution.objective,
+                        records,
+                        converged: within,
+                        statistics,
+                    });
+                }
+            }
+        }
+    }
+}

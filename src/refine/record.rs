@@ -1,0 +1,42 @@
+//! The history of a refinement.
+
+use crate::nlp;
+use std::time::Duration;
+
+/// What the refinement decided for one segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Decision {
+    /// Within the tolerance: left as it is.
+    Keep,
+    /// Degree raised to this many points, eq. (32).
+    Raise(usize),
+    /// Divided into this many segments, eq. (30).
+    Divide(usize),
+}
+
+/// One mesh iteration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    /// Collocation points.
+    pub points: usize,
+    /// Segments.
+    pub segments: usize,
+    /// Breakpoints, fractions of the duration; length segments + 1.
+    pub breakpoints: Vec<f64>,
+    /// Largest error (28) of each state in each segment, segments × states.
+    pub segment_errors: Vec<Vec<f64>>,
+    /// Largest error (28).
+    pub max_error: f64,
+    /// Largest relative error of the states by quadrature on a finer LGR set.
+    pub quadrature_error: f64,
+    /// Objective (25).
+    pub objective: f64,
+    /// Iterations of the solver.
+    pub nlp_iterations: u32,
+    /// How the solver ended.
+    pub nlp_status: nlp::Status,
+    /// Wall time of the iteration, set-up and error estimate included.
+    pub time: Duration,
+    /// What was decided for each segment; empty where the refinement ended here.
+    pub decisions: Vec<Decision>,
+}

@@ -1,0 +1,125 @@
+//! Settings of the mesh and its refinement.
+
+use crate::collocation::{Mesh, MeshError};
+
+/// How accuracy is raised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Adaptive Radau pseudospectral method: segments divided or degrees raised, eq. (29)–(32).
+    Adaptive,
+    /// Traditional global Radau pseudospectral method: one segment, the degree raised.
+    Global,
+}
+
+impl Method {
+    /// The name in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Adaptive => "a-rpm",
+            Self::Global => "rpm",
+        }
+    }
+}
+
+/// First mesh, tolerance and refinement law. Each field says its default.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Method. Default adaptive.
+    pub method: Method,
+    /// Equal segments of the first mesh. Default 10. The global method has one.
+    pub segments: usize,
+    /// LGR points in each segment of the first mesh, and in each part of a divided one. Default 5.
+    pub points: usize,
+    /// Tolerance ε_d on the largest error (28). Default 1e-5.
+    pub tolerance: f64,
+    /// Largest number of mesh iterations of the adaptive method, the first included. Default 6.
+    pub max_iterations: usize,
+    /// Largest number of LGR points in one segment of the adaptive method. Default 20.
+    pub max_points: usize,
+    /// λ₁ of (30). Default 2.
+    pub lambda1: f64,
+    /// λ₂ of (32). Default 3.
+    pub lambda2: f64,
+    /// Curvature ratio r_max above which a segment is divided. Default 1.5.
+    pub r_max: f64,
+    /// LGR points the global method starts with; raised by (32). Default 20.
+    pub global_points: usize,
+    /// Largest number of LGR points of the global method. Default 80.
+    pub max_global_points: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            method: Method::Adaptive,
+            segments: 10,
+            points: 5,
+            tolerance: 1e-5,
+            max_iterations: 6,
+            max_points: 20,
+            lambda1: 2.0,
+            lambda2: 3.0,
+            r_max: 1.5,
+            global_points: 20,
+            max_global_points: 80,
+        }
+    }
+}
+
+impl Settings {
+    /// Checks every field.
+    ///
+    /// # Errors
+    /// Key, what stands there and what was expected.
+    pub fn validate(&self) -> Result<(), (&'static str, String, String)> {
+        let at_least_one = [
+            ("segments", self.segments),
+            ("points", self.points),
+            ("max_iterations", self.max_iterations),
+            ("global_points", self.global_points),
+        ];
+        for (key, value) in at_least_one {
+            if value == 0 {
+                return Err((key, "0".into(), "a whole number of at least 1".into()));
+            }
+        }
+        if self.max_points < self.points {
+            let expected = format!("at least mesh.points, {}", self.points);
+            return Err(("max_points", self.max_points.to_string(), expected));
+        }
+        if self.max_global_points < self.global_points {
+            let expected = format!("at least mesh.global_points, {}", self.global_points);
+            return Err((
+                "max_global_points",
+                self.max_global_points.to_string(),
+                expected,
+            ));
+        }
+        let above_zero = [
+            ("tolerance", self.tolerance),
+            ("lambda1", self.lambda1),
+            ("lambda2", self.lambda2),
+        ];
+        for (key, value) in above_zero {
+            if !(value.is_finite() && value > 0.0) {
+                return Err((key, value.to_string(), "a finite number above zero".into()));
+            }
+        }
+        if !(self.r_max.is_finite() && self.r_max >= 1.0) {
+            let expected = "a finite ratio of at least 1".into();
+            return Err(("r_max", self.r_max.to_string(), expected));
+        }
+        Ok(())
+    }
+
+    /// The first mesh: uniform, or one segment with `global_points` points for the global method.
+    ///
+    /// # Errors
+    /// [`MeshError`] where a count is zero.
+    pub fn first_mesh(&self) -> Result<Mesh, MeshError> {
+        match self.method {
+            Method::Adaptive => Mesh::uniform(self.segments, self.points),
+            Method::Global => Mesh::uniform(1, self.global_points),
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Carries a solution, primal and dual, from one mesh to another.
+
+use crate::collocation::Mesh;
+use crate::nlp::Iterate;
+use crate::transcription::{Discretization, Layout};
+
+/// Multipliers of a programme seen as functions of time, on the mesh they were found on.
+///
+/// A defect's multiplier is the quadrature weight w times a costate; a path row's or a bound's is
+/// w·(width/2) times a density. Divided by those, they can be read on any mesh. In between they
+/// are interpolated linearly: they jump where a limit becomes active, and polynomials would ring.
+pub(super) struct Duals<'a> {
+    layout: &'a Layout,
+    iterate: &'a Iterate,
+    times: Vec<f64>,
+    weights: Vec<Weight>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Weight {
+    defect: f64,
+    density: f64,
+}
+
+fn weights(mesh: &Mesh) -> Vec<Weight> {
+    (0..mesh.segments())
+        .flat_map(|s| {
+            let half = 0.5 * mesh.width(s);
+            let weight = move |&w: &f64| Weight {
+                defect: w,
+                density: w * half,
+            };
+            mesh.rule(s).weights().iter().map(weight)
+        })
+        .collect()
+}
+
+impl<'a> Duals<'a> {
+    /// The multipliers in `iterate`, which belong to `mesh` and `layout`.
+    pub fn new(mesh: &'a Mesh, layout: &'a Layout, iterate: &'a Iterate) -> Self {
+        let mut times = mesh.node_fractions();
+        times.pop();
+        Self {
+            layout,
+            iterate,
+            times,
+            weights: weights(mesh),
+        }
+    }
+
+    /// The two points around `fraction` and how far it is from the first to the second.
+    fn around(&self, fraction: f64) -> (usize, usize, f64) {
+        let last = self.times.len() - 1;
+        let right = self.times.partition_point(|&t| t < fraction).min(last);
+        let left = right.saturating_sub(1);
+        let gap = self.times[right] - self.times[left];
+        let share = if gap > 0.0 {
+            (fraction - self.times[left]) / gap
+        } else {
+            1.0
+        };
+        (left, right, share.clamp(0.0, 1.0))
+    }
+
+    /// A starting iterate on another mesh: `x` with the multipliers read there.
+    pub fn on(&self, mesh: &Mesh, layout: &Layout, x: Vec<f64>) -> Iterate {
+        let old = self.layout;
+        let from = self.iterate;
+        let mut to = Iterate {
+            multipliers: vec![0.0; layout.rows()],
+            lower_multipliers: vec![0.0; layout.variables()],
+            upper_multipliers: vec![0.0; layout.variables()],
+            x,
+        };
+        let mut fractions = mesh.node_fractions();
+        fractions.pop();
+        for (k, (&fraction, weight)) in fractions.iter().zip(weights(mesh)).enumerate() {
+            let (a, b, share) = self.around(fraction);
+            let mix = |va: f64, vb: f64| (1.0 - share) * va + share * vb;
+            let (wa, wb) = (self.weights[a], self.weights[b]);
+            for i in 0..layout.states {
+                let l = &from.multipliers;
+                to.multipliers[layout.defect(k, i)] = weight.defect
+                    * mix(
+                        l[old.defect(a, i)] / wa.defect,
+                        l[old.defect(b, i)] / wb.defect,
+                    );
+            }
+            for p in 0..layout.path {
+                let l = &from.multipliers;
+                to.multipliers[layout.path(k, p)] = weight.density
+                    * mix(
+                        l[old.path(a, p)] / wa.density,
+                        l[old.path(b, p)] / wb.density,
+                    );
+            }
+            for i in 0..layout.states + layout.controls {
+                let (va, vb, v) = (old.state(a, i), old.state(b, i), layout.state(k, i));
+                for (z, out) in [
+                    (&from.lower_multipliers, &mut to.lower_multipliers),
+                    (&from.upper_multipliers, &mut to.upper_multipliers),
+                ] {
+                    out[v] = weight.density * mix(z[va] / wa.density, z[vb] / wb.density);
+                }
+            }
+        }
+        self.copy_ends(layout, &mut to);
+        to
+    }
+
+    /// What belongs to t_f and to the problem as a whole has no weight and is copied.
+    fn copy_ends(&self, layout: &Layout, to: &mut Iterate) {
+        let old = self.layout;
+        let tail = layout.states + usize::from(layout.free_duration);
+        for i in 0..tail {
+            let (v, w) = (layout.state(layout.points, i), old.state(old.points, i));
+            to.lower_multipliers[v] = self.iterate.lower_multipliers[w];
+            to.upper_multipliers[v] = self.iterate.upper_multipliers[w];
+        }
+        for b in 0..layout.boundary {
+            to.multipliers[layout.boundary(b)] = self.iterate.multipliers[old.boundary(b)];
+        }
+    }
+}
+
+/// The trajectory on `mesh`, its controls kept within the values they had around there.
+///
+/// High-degree polynomials overshoot at the ends of segments; a start outside the bounds would be
+/// pushed back by the solver and lose more than this.
+pub(super) fn resample(trajectory: &Discretization, mesh: Mesh) -> Discretization {
+    let mut sampled = trajectory.resample(mesh);
+    let width = trajectory.controls;
+    for j in 0..width {
+        let old = || trajectory.u.iter().skip(j).step_by(width).copied();
+        let (low, high) = old().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+            (l.min(v), h.max(v))
+        });
+        for value in sampled.u.iter_mut().skip(j).step_by(width) {
+            *value = value.clamp(low, high);
+        }
+    }
+    sampled
+}

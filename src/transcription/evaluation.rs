@@ -1,0 +1,168 @@
+//! Evaluates an optimal control problem at all collocation points, each thing once a point.
+
+use super::functions::{Boundary, Node};
+use super::{Layout, Patterns};
+use crate::autodiff::{Function, SparseDerivatives};
+use crate::collocation::Mesh;
+use crate::nlp::Undefined;
+use crate::ocp::{Formulation, Ocp};
+
+/// Values and derivatives at the current iterate, computed when first asked for.
+pub(super) struct Evaluation<'a, O: Ocp> {
+    layout: Layout,
+    fixed_duration: f64,
+    /// Fractions of the duration of the collocation points.
+    fractions: Vec<f64>,
+    pub node: Node<'a, O>,
+    pub ends: Boundary<'a, O>,
+    pub node_derivatives: SparseDerivatives<Node<'a, O>>,
+    pub end_derivatives: SparseDerivatives<Boundary<'a, O>>,
+    /// Outputs of every point, by points.
+    pub values: Vec<f64>,
+    /// Jacobian nonzeros of every point, by points.
+    pub first: Vec<f64>,
+    pub end_values: Vec<f64>,
+    pub end_first: Vec<f64>,
+    have_values: bool,
+    have_first: bool,
+    inputs: Vec<f64>,
+    end_inputs: Vec<f64>,
+}
+
+impl<'a, O: Ocp> Evaluation<'a, O> {
+    pub fn new(
+        ocp: &'a O,
+        formulation: &Formulation,
+        patterns: &Patterns,
+        mesh: &Mesh,
+        layout: Layout,
+    ) -> Self {
+        let node = Node::new(ocp, formulation);
+        let ends = Boundary::new(ocp, formulation);
+        let node_derivatives = SparseDerivatives::new(&node, patterns.node.clone());
+        let end_derivatives = SparseDerivatives::new(&ends, patterns.ends.clone());
+        let mut fractions = mesh.node_fractions();
+        fractions.pop();
+        Self {
+            layout,
+            fixed_duration: formulation.duration.lower,
+            fractions,
+            values: vec![0.0; layout.points * node.outputs()],
+            first: vec![0.0; layout.points * node_derivatives.jacobian_nonzeros()],
+            end_values: vec![0.0; ends.outputs()],
+            end_first: vec![0.0; end_derivatives.jacobian_nonzeros()],
+            have_values: false,
+            have_first: false,
+            inputs: vec![0.0; node.inputs()],
+            end_inputs: vec![0.0; ends.inputs()],
+            node,
+            ends,
+            node_derivatives,
+            end_derivatives,
+        }
+    }
+
+    pub fn forget(&mut self) {
+        self.have_values = false;
+        self.have_first = false;
+    }
+
+    pub fn duration(&self, x: &[f64]) -> f64 {
+        if self.layout.free_duration {
+            x[self.layout.duration()]
+        } else {
+            self.fixed_duration
+        }
+    }
+
+    /// Fraction of the duration of point `k`: the derivative of its time by the duration.
+    pub fn fraction(&self, k: usize) -> f64 {
+        self.fractions[k]
+    }
+
+    /// Outputs (f, C, ℒ) of point `k`.
+    pub fn outputs(&self, k: usize) -> &[f64] {
+        let width = self.node.outputs();
+        &self.values[k * width..(k + 1) * width]
+    }
+
+    /// Jacobian nonzeros of point `k`, output by output.
+    pub fn nonzeros(&self, k: usize) -> &[f64] {
+        let width = self.node_derivatives.jacobian_nonzeros();
+        &self.first[k * width..(k + 1) * width]
+    }
+
+    fn load(&mut self, x: &[f64], k: usize) {
+        let width = self.node.time();
+        self.inputs[..width].copy_from_slice(&x[k * width..(k + 1) * width]);
+        self.inputs[width] = self.fractions[k] * self.duration(x);
+    }
+
+    fn load_ends(&mut self, x: &[f64]) {
+        let n = self.layout.states;
+        let last = self.layout.state(self.layout.points, 0);
+        self.end_inputs[..n].copy_from_slice(&x[..n]);
+        self.end_inputs[n..2 * n].copy_from_slice(&x[last..last + n]);
+        self.end_inputs[2 * n] = self.duration(x);
+    }
+
+    /// Makes sure that values are those at `x`.
+    pub fn need_values(&mut self, x: &[f64]) {
+        if self.have_values {
+            return;
+        }
+        let width = self.node.outputs();
+        for k in 0..self.layout.points {
+            self.load(x, k);
+            let out = &mut self.values[k * width..(k + 1) * width];
+            self.node_derivatives.values(&self.node, &self.inputs, out);
+        }
+        self.load_ends(x);
+        self.end_derivatives
+            .values(&self.ends, &self.end_inputs, &mut self.end_values);
+        self.have_values = true;
+    }
+
+    /// Makes sure that first derivatives are those at `x`.
+    pub fn need_first(&mut self, x: &[f64]) -> Result<(), Undefined> {
+        if self.have_first {
+            return Ok(());
+        }
+        let width = self.node_derivatives.jacobian_nonzeros();
+        for k in 0..self.layout.points {
+            self.load(x, k);
+            let out = &mut self.first[k * width..(k + 1) * width];
+            self.node_derivatives
+                .jacobian(&self.node, &self.inputs, out);
+        }
+        self.load_ends(x);
+        self.end_derivatives
+            .jacobian(&self.ends, &self.end_inputs, &mut self.end_first);
+        if !self
+            .first
+            .iter()
+            .chain(&self.end_first)
+            .all(|d| d.is_finite())
+        {
+            return Err(Undefined {
+                function: "first derivatives",
+            });
+        }
+        self.have_first = true;
+        Ok(())
+    }
+
+    /// Weighted Hessian of point `k` into `out`.
+    pub fn node_hessian(&mut self, x: &[f64], k: usize, weights: &[f64], out: &mut [f64]) {
+        self.load(x, k);
+        self.node_derivatives
+            .hessian(&self.node, &self.inputs, weights, out);
+    }
+
+    /// Weighted Hessian of the ends into `out`.
+    pub fn end_hessian(&mut self, x: &[f64], weights: &[f64], out: &mut [f64]) {
+        self.load_ends(x);
+        self.end_derivatives
+            .hessian(&self.ends, &self.end_inputs, weights, out);
+    }
+}

@@ -1,0 +1,245 @@
+//! Structure and values of the Hessian of the Lagrangian.
+
+use super::Layout;
+use super::evaluation::Evaluation;
+use super::jacobian::{end_column, half_widths, quadrature};
+use crate::collocation::Mesh;
+use crate::nlp::Undefined;
+use crate::ocp::Ocp;
+use std::collections::HashMap;
+
+/// Second derivatives of one point that involve the duration T through t = αT and the factor
+/// T·width/2. Indices into the point's own derivatives.
+#[derive(Debug, Default)]
+struct DurationTerms {
+    /// (input, slot in the programme's Hessian for (T, input)), one list a point.
+    coupling: Vec<Vec<(usize, usize)>>,
+    /// Slot of (T, T), where the problem depends on time.
+    own: Option<usize>,
+}
+
+/// The lower triangle of ∇²L: triplets and where each point's block goes.
+#[derive(Debug)]
+pub(super) struct Hessian {
+    pub rows: Vec<usize>,
+    pub columns: Vec<usize>,
+    /// Slot of each nonzero of each point's block; `usize::MAX` where it involves the time.
+    node_slots: Vec<usize>,
+    end_slots: Vec<usize>,
+    duration: DurationTerms,
+    half_width: Vec<f64>,
+    quadrature: Vec<f64>,
+    weights: Vec<f64>,
+    block: Vec<f64>,
+    end_weights: Vec<f64>,
+    end_block: Vec<f64>,
+    by_input: Vec<f64>,
+}
+
+impl Hessian {
+    pub fn new<O: Ocp>(layout: &Layout, mesh: &Mesh, evaluation: &Evaluation<'_, O>) -> Self {
+        let sparsity = evaluation.node_derivatives.sparsity();
+        let time = evaluation.node.time();
+        let mut slots = Slots::default();
+        let mut node_slots = Vec::new();
+        for k in 0..layout.points {
+            for &(i, j) in &sparsity.hessian {
+                node_slots.push(if i == time {
+                    usize::MAX
+                } else {
+                    slots.slot(layout.state(k, i), layout.state(k, j))
+                });
+            }
+        }
+        let end_slots = evaluation
+            .end_derivatives
+            .sparsity()
+            .hessian
+            .iter()
+            .map(|&(i, j)| {
+                let (a, b) = (end_column(layout, i), end_column(layout, j));
+                slots.slot(a.max(b), a.min(b))
+            })
+            .collect();
+        let mut duration = DurationTerms::default();
+        if layout.free_duration {
+            let last = layout.duration();
+            duration.coupling = (0..layout.points)
+                .map(|k| {
+                    coupled_inputs(layout, evaluation, k)
+                        .into_iter()
+                        .map(|i| (i, slots.slot(last, layout.state(k, i))))
+                        .collect()
+                })
+                .collect();
+            if sparsity.columns().contains(&time) {
+                duration.own = Some(slots.slot(last, last));
+            }
+        }
+        Self {
+            rows: slots.rows,
+            columns: slots.columns,
+            node_slots,
+            end_slots,
+            duration,
+            half_width: half_widths(mesh),
+            quadrature: quadrature(mesh),
+            weights: vec![0.0; sparsity.jacobian.len()],
+            block: vec![0.0; sparsity.hessian.len()],
+            end_weights: vec![0.0; evaluation.ends.rows + 1],
+            end_block: vec![0.0; evaluation.end_derivatives.sparsity().hessian.len()],
+            by_input: vec![0.0; time + 1],
+        }
+    }
+
+    /// Values of σ∇²f + Σ λ∇²g. Where the duration is free, first derivatives must be current.
+    pub fn values<O: Ocp>(
+        &mut self,
+        x: &[f64],
+        sigma: f64,
+        multipliers: &[f64],
+        layout: &Layout,
+        evaluation: &mut Evaluation<'_, O>,
+        values: &mut [f64],
+    ) -> Result<(), Undefined> {
+        values.fill(0.0);
+        let duration = evaluation.duration(x);
+        let width = self.block.len();
+        for k in 0..layout.points {
+            self.weigh(
+                k,
+                duration,
+                sigma,
+                multipliers,
+                layout,
+                evaluation.node.cost(),
+            );
+            evaluation.node_hessian(x, k, &self.weights, &mut self.block);
+            for (h, &slot) in self.block.iter().zip(&self.node_slots[k * width..]) {
+                if slot != usize::MAX {
+                    values[slot] += h;
+                }
+            }
+            if layout.free_duration {
+                self.duration_terms(k, duration, layout, evaluation, values);
+            }
+        }
+        let (end_rows, end_cost) = self.end_weights.split_at_mut(layout.boundary);
+        end_rows.copy_from_slice(&multipliers[layout.boundary(0)..]);
+        end_cost[0] = sigma;
+        evaluation.end_hessian(x, &self.end_weights, &mut self.end_block);
+        for (h, &slot) in self.end_block.iter().zip(&self.end_slots) {
+            values[slot] += h;
+        }
+        if values.iter().all(|h| h.is_finite()) {
+            Ok(())
+        } else {
+            Err(Undefined {
+                function: "Hessian of the Lagrangian",
+            })
+        }
+    }
+
+    /// Weights of point `k`'s outputs in the Lagrangian.
+    fn weigh(
+        &mut self,
+        k: usize,
+        duration: f64,
+        sigma: f64,
+        multipliers: &[f64],
+        layout: &Layout,
+        cost: usize,
+    ) {
+        let half = duration * self.half_width[k];
+        let rows = &multipliers[layout.defect(k, 0)..layout.defect(k + 1, 0)];
+        for (i, (weight, &multiplier)) in self.weights.iter_mut().zip(rows).enumerate() {
+            *weight = if i < layout.states {
+                -half * multiplier
+            } else {
+                multiplier
+            };
+        }
+        self.weights[cost] = sigma * duration * self.quadrature[k];
+    }
+
+    /// Second derivatives with the duration: with ψ = T·g(v, αT) + c(v, αT), where g gathers
+    /// defects and cost,  ψ_vT = g_v + αT·g_vt + α·c_vt and ψ_TT = 2α·g_t + α²(T·g_tt + c_tt).
+    fn duration_terms<O: Ocp>(
+        &mut self,
+        k: usize,
+        duration: f64,
+        layout: &Layout,
+        evaluation: &Evaluation<'_, O>,
+        values: &mut [f64],
+    ) {
+        let sparsity = evaluation.node_derivatives.sparsity();
+        let time = evaluation.node.time();
+        let alpha = evaluation.fraction(k);
+        self.by_input.fill(0.0);
+        let mut first = evaluation.nonzeros(k).iter();
+        for (r, inputs) in sparsity.jacobian.iter().enumerate() {
+            let scaled = !(layout.states..layout.states + layout.path).contains(&r);
+            let weight = if scaled {
+                self.weights[r] / duration
+            } else {
+                0.0
+            };
+            for (&input, d) in inputs.iter().zip(first.by_ref()) {
+                self.by_input[input] += weight * d;
+            }
+        }
+        let mut own = 2.0 * alpha * self.by_input[time];
+        for (h, &(i, j)) in self.block.iter().zip(&sparsity.hessian) {
+            if i == time && j == time {
+                own += alpha * alpha * h;
+            } else if i == time {
+                self.by_input[j] += alpha * h;
+            }
+        }
+        for &(input, slot) in &self.duration.coupling[k] {
+            values[slot] += self.by_input[input];
+        }
+        if let Some(slot) = self.duration.own {
+            values[slot] += own;
+        }
+    }
+}
+
+/// Inputs of point `k` with a second derivative by the duration. Path rows do not carry the factor
+/// T: they couple with it through the time alone, which the first point does not.
+fn coupled_inputs<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, k: usize) -> Vec<usize> {
+    let sparsity = evaluation.node_derivatives.sparsity();
+    let time = evaluation.node.time();
+    let path = layout.states..layout.states + layout.path;
+    let scaled = (0..sparsity.jacobian.len()).filter(|r| !path.contains(r));
+    let by_time = sparsity
+        .hessian
+        .iter()
+        .filter(|&&(i, _)| i == time && evaluation.fraction(k) > 0.0);
+    let mut inputs: Vec<usize> = scaled
+        .flat_map(|r| sparsity.jacobian[r].iter().copied())
+        .chain(by_time.map(|&(_, j)| j))
+        .filter(|&input| input != time)
+        .collect();
+    inputs.sort_unstable();
+    inputs.dedup();
+    inputs
+}
+
+/// Triplets without repetition.
+#[derive(Default)]
+struct Slots {
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    known: HashMap<(usize, usize), usize>,
+}
+
+impl Slots {
+    fn slot(&mut self, row: usize, column: usize) -> usize {
+        *self.known.entry((row, column)).or_insert_with(|| {
+            self.rows.push(row);
+            self.columns.push(column);
+            self.rows.len() - 1
+        })
+    }
+}

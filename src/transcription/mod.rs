@@ -1,0 +1,17 @@
+//! Radau transcription: an optimal control problem on a mesh becomes a sparse programme,
+//! eq. (22) to (27).
+
+mod discretization;
+mod evaluation;
+mod functions;
+mod hessian;
+mod jacobian;
+mod layout;
+mod names;
+mod patterns;
+mod program;
+
+pub use discretization::Discretization;
+pub use layout::Layout;
+pub use patterns::Patterns;
+pub use program::Transcription;

@@ -1,0 +1,63 @@
+//! What a person calls each variable and row of the programme.
+
+use super::Layout;
+use crate::collocation::Mesh;
+use crate::ocp::Formulation;
+
+/// Names made on demand from the formulation and the mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Names {
+    formulation: Formulation,
+    starts: Vec<usize>,
+}
+
+impl Names {
+    pub fn new(formulation: Formulation, mesh: &Mesh) -> Self {
+        Self {
+            formulation,
+            starts: (0..mesh.segments()).map(|s| mesh.start(s)).collect(),
+        }
+    }
+
+    fn place(&self, layout: &Layout, k: usize) -> String {
+        if k == layout.points {
+            return "final time".into();
+        }
+        let s = self.starts.partition_point(|&start| start <= k) - 1;
+        format!("segment {}, point {}", s + 1, k - self.starts[s] + 1)
+    }
+
+    pub fn variable(&self, layout: &Layout, index: usize) -> String {
+        if layout.free_duration && index == layout.duration() {
+            return "duration".into();
+        }
+        let width = layout.states + layout.controls;
+        let (k, i) = (index / width, index % width);
+        let quantity = if i < layout.states {
+            &self.formulation.states[i]
+        } else {
+            &self.formulation.controls[i - layout.states]
+        };
+        format!("{}, {}", quantity.name, self.place(layout, k))
+    }
+
+    pub fn row(&self, layout: &Layout, index: usize) -> String {
+        if index >= layout.boundary(0) {
+            return self.formulation.boundary[index - layout.boundary(0)]
+                .name
+                .clone();
+        }
+        let width = layout.states + layout.path;
+        let (k, i) = (index / width, index % width);
+        if i < layout.states {
+            format!(
+                "defect of {}, {}",
+                self.formulation.states[i].name,
+                self.place(layout, k)
+            )
+        } else {
+            let row = &self.formulation.path[i - layout.states];
+            format!("{}, {}", row.name, self.place(layout, k))
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! The transcription as a sparse programme.
+
+use super::evaluation::Evaluation;
+use super::hessian::Hessian;
+use super::jacobian::{self, Jacobian};
+use super::names::Names;
+use super::{Discretization, Layout, Patterns};
+use crate::collocation::Mesh;
+use crate::nlp::{Nlp, Size, Undefined};
+use crate::ocp::{Formulation, Ocp};
+
+/// An optimal control problem on one mesh: minimise (25) subject to (26) and (27).
+pub struct Transcription<'a, O: Ocp> {
+    formulation: Formulation,
+    mesh: Mesh,
+    layout: Layout,
+    names: Names,
+    quadrature: Vec<f64>,
+    evaluation: Evaluation<'a, O>,
+    jacobian: Jacobian,
+    hessian: Hessian,
+}
+
+impl<'a, O: Ocp> Transcription<'a, O> {
+    /// Lays the problem out on `mesh`, with its sparsity as found by [`Patterns::detect`].
+    pub fn new(ocp: &'a O, patterns: &Patterns, mesh: Mesh) -> Self {
+        let formulation = ocp.formulation();
+        let layout = Layout::new(&formulation, &mesh);
+        let evaluation = Evaluation::new(ocp, &formulation, patterns, &mesh, layout);
+        Self {
+            names: Names::new(formulation.clone(), &mesh),
+            quadrature: jacobian::quadrature(&mesh),
+            jacobian: Jacobian::new(&layout, &mesh, &evaluation),
+            hessian: Hessian::new(&layout, &mesh, &evaluation),
+            formulation,
+            mesh,
+            layout,
+            evaluation,
+        }
+    }
+
+    /// Where variables and rows stand.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Quantities and bounds of the problem.
+    pub fn formulation(&self) -> &Formulation {
+        &self.formulation
+    }
+
+    /// The programme's variables for a trajectory on this mesh.
+    pub fn pack(&self, trajectory: &Discretization) -> Vec<f64> {
+        jacobian::pack(&self.layout, trajectory)
+    }
+
+    /// The trajectory of the programme's variables `x`.
+    pub fn unpack(&self, x: &[f64]) -> Discretization {
+        let layout = &self.layout;
+        let states = (0..=layout.points).flat_map(|k| {
+            let start = layout.state(k, 0);
+            x[start..start + layout.states].iter().copied()
+        });
+        let controls = (0..layout.points).flat_map(|k| {
+            let start = layout.control(k, 0);
+            x[start..start + layout.controls].iter().copied()
+        });
+        Discretization {
+            mesh: self.mesh.clone(),
+            duration: self.evaluation.duration(x),
+            states: layout.states,
+            controls: layout.controls,
+            x: states.collect(),
+            u: controls.collect(),
+        }
+    }
+}
+
+impl<O: Ocp> Nlp for Transcription<'_, O> {
+    fn size(&self) -> Size {
+        Size {
+            variables: self.layout.variables(),
+            constraints: self.layout.rows(),
+            jacobian_nonzeros: self.jacobian.rows.len(),
+            hessian_nonzeros: self.hessian.rows.len(),
+        }
+    }
+
+    fn variable_bounds(&self, lower: &mut [f64], upper: &mut [f64]) {
+        let layout = &self.layout;
+        for k in 0..=layout.points {
+            for (i, state) in self.formulation.states.iter().enumerate() {
+                let mut bounds = state.bounds;
+                if k == 0 {
+                    bounds = bounds.intersect(&self.formulation.initial[i]);
+                }
+                if k == layout.points {
+                    bounds = bounds.intersect(&self.formulation.terminal[i]);
+                }
+                (lower[layout.state(k, i)], upper[layout.state(k, i)]) =
+                    (bounds.lower, bounds.upper);
+            }
+        }
+        for k in 0..layout.points {
+            for (j, control) in self.formulation.controls.iter().enumerate() {
+                lower[layout.control(k, j)] = control.bounds.lower;
+                upper[layout.control(k, j)] = control.bounds.upper;
+            }
+        }
+        if layout.free_duration {
+            lower[layout.duration()] = self.formulation.duration.lower;
+            upper[layout.duration()] = self.formulation.duration.upper;
+        }
+    }
+
+    fn constraint_bounds(&self, lower: &mut [f64], upper: &mut [f64]) {
+        let layout = &self.layout;
+        lower.fill(0.0);
+        upper.fill(0.0);
+        for k in 0..layout.points {
+            for (p, row) in self.formulation.path.iter().enumerate() {
+                lower[layout.path(k, p)] = row.bounds.lower;
+                upper[layout.path(k, p)] = row.bounds.upper;
+            }
+        }
+        for (b, row) in self.formulation.boundary.iter().enumerate() {
+            lower[layout.boundary(b)] = row.bounds.lower;
+            upper[layout.boundary(b)] = row.bounds.upper;
+        }
+    }
+
+    fn jacobian_structure(&self, rows: &mut [usize], columns: &mut [usize]) {
+        rows.copy_from_slice(&self.jacobian.rows);
+        columns.copy_from_slice(&self.jacobian.columns);
+    }
+
+    fn hessian_structure(&self, rows: &mut [usize], columns: &mut [usize]) {
+        rows.copy_from_slice(&self.hessian.rows);
+        columns.copy_from_slice(&self.hessian.columns);
+    }
+
+    fn new_point(&mut self) {
+        self.evaluation.forget();
+    }
+
+    fn objective(&mut self, x: &[f64]) -> Result<f64, Undefined> {
+        self.evaluation.need_values(x);
+        let duration = self.evaluation.duration(x);
+        let value = jacobian::objective(duration, &self.quadrature, &self.evaluation);
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(Undefined {
+                function: "objective",
+            })
+        }
+    }
+
+    fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Undefined> {
+        self.need_all(x)?;
+        let duration = self.evaluation.duration(x);
+        jacobian::gradient(
+            duration,
+            &self.quadrature,
+            &self.layout,
+            &self.evaluation,
+            gradient,
+        );
+        Ok(())
+    }
+
+    fn constraints(&mut self, x: &[f64], values: &mut [f64]) -> Result<(), Undefined> {
+        self.evaluation.need_values(x);
+        let duration = self.evaluation.duration(x);
+        let layout = &self.layout;
+        for s in 0..self.mesh.segments() {
+            let rule = self.mesh.rule(s);
+            let start = self.mesh.start(s);
+            let half = 0.5 * duration * self.mesh.width(s);
+            for i in 0..rule.len() {
+                let outputs = self.evaluation.outputs(start + i);
+                let rows = layout.defect(start + i, 0);
+                for r in 0..layout.states {
+                    let derivative: f64 = rule
+                        .differentiation(i)
+                        .iter()
+                        .enumerate()
+                        .map(|(j, d)| d * x[layout.state(start + j, r)])
+                        .sum();
+                    values[rows + r] = derivative - half * outputs[r];
+                }
+                values[rows + layout.states..rows + layout.states + layout.path]
+                    .copy_from_slice(&outputs[layout.states..layout.states + layout.path]);
+            }
+        }
+        values[layout.boundary(0)..]
+            .copy_from_slice(&self.evaluation.end_values[..layout.boundary]);
+        if values.iter().all(|v| v.is_finite()) {
+            Ok(())
+        } else {
+            Err(Undefined {
+                function: "constraints",
+            })
+        }
+    }
+
+    fn jacobian(&mut self, x: &[f64], values: &mut [f64]) -> Result<(), Undefined> {
+        self.need_all(x)?;
+        self.jacobian
+            .values(self.evaluation.duration(x), &self.evaluation, values);
+        Ok(())
+    }
+
+    fn hessian(
+        &mut self,
+        x: &[f64],
+        sigma: f64,
+        multipliers: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), Undefined> {
+        if self.layout.free_duration {
+            self.need_all(x)?;
+        }
+        self.hessian.values(
+            x,
+            sigma,
+            multipliers,
+            &self.layout,
+            &mut self.evaluation,
+            values,
+        )
+    }
+
+    fn variable_name(&self, index: usize) -> String {
+        self.names.variable(&self.layout, index)
+    }
+
+    fn constraint_name(&self, index: usize) -> String {
+        self.names.row(&self.layout, index)
+    }
+}
+
+impl<O: Ocp> Transcription<'_, O> {
+    /// Values and first derivatives; values only where a derivative by the duration needs them.
+    fn need_all(&mut self, x: &[f64]) -> Result<(), Undefined> {
+        if self.layout.free_duration {
+            self.evaluation.need_values(x);
+        }
+        self.evaluation.need_first(x)
+    }
+}

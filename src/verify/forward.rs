@@ -1,0 +1,179 @@
+//! Open-loop re-integration of the unreduced equations of motion (4) under the planned control.
+
+use super::Verification;
+use super::bodies::{BaseMotion, Bodies};
+use super::integrate::Motion;
+use super::mass_matrix::{BASE, MassMatrix, NotPositiveDefinite};
+use super::pass::{Pass, Planned};
+use super::polynomial::Polynomial;
+use crate::transcription::Discretization;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+/// Base position, orientation, velocity, angular velocity and the joints' work; then θ and θ̇.
+const POSITION: usize = 0;
+const ORIENTATION: usize = 3;
+const VELOCITY: usize = 7;
+const WORK: usize = 13;
+const JOINTS: usize = 14;
+
+pub(super) struct Forward<'a> {
+    planned: Planned<'a>,
+    bodies: Bodies,
+    mass: MassMatrix,
+    control: Polynomial,
+    /// Seconds a unit of τ in the current segment.
+    unit: f64,
+    u: Vec<f64>,
+    torque: Vec<f64>,
+    acceleration: Vec<f64>,
+    start_energy: f64,
+}
+
+impl<'a> Forward<'a> {
+    pub fn new(planned: Planned<'a>) -> Self {
+        let n = planned.model.joint_count();
+        Self {
+            bodies: Bodies::new(planned.model),
+            mass: MassMatrix::new(planned.model),
+            planned,
+            control: Polynomial::default(),
+            unit: 0.0,
+            u: vec![0.0; n],
+            torque: vec![0.0; n],
+            acceleration: vec![0.0; BASE + n],
+            start_energy: 0.0,
+        }
+    }
+
+    fn place_bodies(&mut self, y: &[f64]) {
+        let (q, dq) = y[JOINTS..].split_at(self.u.len());
+        let base = BaseMotion {
+            velocity: vector(y, VELOCITY),
+            angular: vector(y, VELOCITY + 3),
+            ..BaseMotion::placed(vector(y, POSITION), unit(&y[ORIENTATION..]))
+        };
+        self.bodies.update(self.planned.model, &base, q, dq);
+    }
+}
+
+impl Motion for Forward<'_> {
+    type Error = NotPositiveDefinite;
+
+    fn rate(&mut self, tau: f64, y: &[f64], dy: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+        let n = self.u.len();
+        self.place_bodies(y);
+        let dq = &y[JOINTS + n..];
+        self.mass.update(self.planned.model, &self.bodies, dq)?;
+        self.control.at(tau, &mut self.u);
+        self.mass.reduced_times(&self.u, &mut self.torque);
+        self.mass
+            .accelerations(&self.torque, &mut self.acceleration);
+
+        dy[..3].copy_from_slice(&y[VELOCITY..VELOCITY + 3]);
+        turn_rate(
+            &vector(y, VELOCITY + 3),
+            &y[ORIENTATION..],
+            &mut dy[ORIENTATION..],
+        );
+        dy[VELOCITY..VELOCITY + BASE].copy_from_slice(&self.acceleration[..BASE]);
+        dy[WORK] = self
+            .torque
+            .iter()
+            .zip(dq)
+            .map(|(torque, rate)| torque * rate)
+            .sum();
+        dy[JOINTS..JOINTS + n].copy_from_slice(dq);
+        dy[JOINTS + n..].copy_from_slice(&self.acceleration[BASE..]);
+        for rate in dy {
+            *rate *= self.unit;
+        }
+        Ok(())
+    }
+}
+
+impl Pass for Forward<'_> {
+    const NAME: &'static str = "the full dynamics";
+
+    fn start(&mut self) -> Result<Vec<f64>, NotPositiveDefinite> {
+        let n = self.u.len();
+        let (orientation, position) = self.planned.base(0);
+        let mut y = vec![0.0; JOINTS + 2 * n];
+        y[..3].copy_from_slice(position.as_slice());
+        write(&orientation, &mut y[ORIENTATION..]);
+        y[JOINTS..].copy_from_slice(self.planned.joints(0));
+        self.place_bodies(&y);
+        let dq = &y[JOINTS + n..];
+        self.mass.update(self.planned.model, &self.bodies, dq)?;
+        let (velocity, angular) = self.mass.momentum_free(dq);
+        y[VELOCITY..VELOCITY + 3].copy_from_slice(velocity.as_slice());
+        y[VELOCITY + 3..VELOCITY + BASE].copy_from_slice(angular.as_slice());
+        self.place_bodies(&y);
+        self.start_energy = self.bodies.kinetic_energy();
+        Ok(y)
+    }
+
+    fn enter(&mut self, plan: &Discretization, s: usize) {
+        let start = plan.mesh.start(s);
+        let nodes = plan.mesh.rule(s).points();
+        self.control
+            .load(nodes, (start..start + nodes.len()).map(|k| plan.control(k)));
+        self.unit = 0.5 * plan.mesh.width(s) * plan.duration;
+    }
+
+    fn after_step(&mut self, y: &[f64], found: &mut Verification) {
+        self.place_bodies(y);
+        let gap = self.bodies.kinetic_energy() - self.start_energy - y[WORK];
+        raise(
+            &mut found.max_linear_momentum,
+            self.bodies.linear_momentum().norm(),
+        );
+        raise(
+            &mut found.max_angular_momentum,
+            self.bodies.angular_momentum().norm(),
+        );
+        raise(&mut found.max_energy_gap, gap.abs());
+        found.steps += 1;
+    }
+
+    fn at_node(&mut self, k: usize, y: &[f64], found: &mut Verification) {
+        let (orientation, position) = self.planned.base(k);
+        let turned = unit(&y[ORIENTATION..]).angle_to(&orientation);
+        raise(&mut found.max_base_attitude_drift, turned);
+        raise(
+            &mut found.max_base_position_drift,
+            (vector(y, POSITION) - position).norm(),
+        );
+        for (actual, planned) in y[JOINTS..]
+            .iter()
+            .zip(self.planned.joints(k))
+            .take(self.u.len())
+        {
+            raise(&mut found.max_joint_drift, (actual - planned).abs());
+        }
+    }
+}
+
+pub(super) fn raise(largest: &mut f64, value: f64) {
+    *largest = largest.max(value);
+}
+
+pub(super) fn vector(y: &[f64], start: usize) -> Vector3<f64> {
+    Vector3::new(y[start], y[start + 1], y[start + 2])
+}
+
+/// A quaternion w, x, y, z, whose length may have drifted.
+pub(super) fn unit(y: &[f64]) -> UnitQuaternion<f64> {
+    UnitQuaternion::new_normalize(Quaternion::new(y[0], y[1], y[2], y[3]))
+}
+
+pub(super) fn write(orientation: &UnitQuaternion<f64>, y: &mut [f64]) {
+    let q = orientation.quaternion();
+    y[..4].copy_from_slice(&[q.w, q.i, q.j, q.k]);
+}
+
+/// q̇ = ½ωq for an angular velocity in inertial axes.
+pub(super) fn turn_rate(omega: &Vector3<f64>, y: &[f64], dy: &mut [f64]) {
+    let q = Quaternion::new(y[0], y[1], y[2], y[3]);
+    let rate = Quaternion::from_imag(*omega) * q * 0.5;
+    dy[..4].copy_from_slice(&[rate.w, rate.i, rate.j, rate.k]);
+}

@@ -1,0 +1,200 @@
+//! Adaptive Dormand-Prince 5(4) integration.
+//!
+//! E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I", table II.5.2,
+//! step control of section II.4.
+
+/// Right-hand side of an ordinary differential equation.
+pub trait Motion {
+    /// Why the right-hand side has no value.
+    type Error;
+    /// Writes dy/dt at `t` to `dy`.
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Error>;
+}
+
+/// Why an interval could not be crossed, and the time reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stuck<E> {
+    /// The right-hand side failed.
+    Rate(f64, E),
+    /// The step had to become shorter than time resolves.
+    Underflow(f64),
+    /// The step limit was reached.
+    Steps(f64),
+}
+
+/// The integrator with its workspace; the step found lasts from one interval to the next.
+#[derive(Debug)]
+pub struct DormandPrince {
+    /// Tolerance relative to each component.
+    pub relative: f64,
+    /// Absolute tolerance.
+    pub absolute: f64,
+    /// Most steps allowed, taken or rejected.
+    pub max_steps: usize,
+    taken: usize,
+    rejected: usize,
+    /// Length of the next step; zero where none is known.
+    step: f64,
+    stages: [Vec<f64>; 7],
+    trial: Vec<f64>,
+}
+
+const C: [f64; 7] = [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
+const A: [&[f64]; 7] = [
+    &[],
+    &[1.0 / 5.0],
+    &[3.0 / 40.0, 9.0 / 40.0],
+    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
+    &[
+        19372.0 / 6561.0,
+        -25360.0 / 2187.0,
+        64448.0 / 6561.0,
+        -212.0 / 729.0,
+    ],
+    &[
+        9017.0 / 3168.0,
+        -355.0 / 33.0,
+        46732.0 / 5247.0,
+        49.0 / 176.0,
+        -5103.0 / 18656.0,
+    ],
+    // The last row is the solution itself: its rate serves the next step.
+    &[
+        35.0 / 384.0,
+        0.0,
+        500.0 / 1113.0,
+        125.0 / 192.0,
+        -2187.0 / 6784.0,
+        11.0 / 84.0,
+    ],
+];
+/// Fifth minus fourth order weights.
+const E: [f64; 7] = [
+    71.0 / 57600.0,
+    0.0,
+    -71.0 / 16695.0,
+    71.0 / 1920.0,
+    -17253.0 / 339200.0,
+    22.0 / 525.0,
+    -1.0 / 40.0,
+];
+
+impl DormandPrince {
+    /// An integrator of `size` equations.
+    pub fn new(size: usize, relative: f64, absolute: f64, max_steps: usize) -> Self {
+        Self {
+            relative,
+            absolute,
+            max_steps,
+            taken: 0,
+            rejected: 0,
+            step: 0.0,
+            stages: std::array::from_fn(|_| vec![0.0; size]),
+            trial: vec![0.0; size],
+        }
+    }
+
+    /// Steps taken so far.
+    pub fn taken(&self) -> usize {
+        self.taken
+    }
+
+    /// The next step in another unit of time, `ratio` old ones long.
+    pub fn change_unit(&mut self, ratio: f64) {
+        self.step /= ratio;
+    }
+
+    /// Carries `y` from `start` to `end` exactly. `fresh` says that the right-hand side is not the
+    /// one of the interval before; `accepted` sees the state after every step taken.
+    ///
+    /// # Errors
+    /// [`Stuck`] where the interval cannot be crossed.
+    pub fn advance<M: Motion>(
+        &mut self,
+        motion: &mut M,
+        [start, end]: [f64; 2],
+        y: &mut [f64],
+        fresh: bool,
+        mut accepted: impl FnMut(&mut M, &[f64]),
+    ) -> Result<(), Stuck<M::Error>> {
+        if fresh {
+            motion
+                .rate(start, y, &mut self.stages[0])
+                .map_err(|e| Stuck::Rate(start, e))?;
+        }
+        if self.step == 0.0 {
+            self.step = self.first_step(y, end - start);
+        }
+        let mut t = start;
+        while t < end {
+            if self.taken + self.rejected >= self.max_steps {
+                return Err(Stuck::Steps(t));
+            }
+            // A step that almost reaches the end is stretched to it.
+            let last = t + 1.01 * self.step >= end;
+            let h = if last { end - t } else { self.step };
+            if h <= 4.0 * f64::EPSILON * start.abs().max(end.abs()) {
+                return Err(Stuck::Underflow(t));
+            }
+            let error = self.attempt(motion, t, h, y);
+            let factor = (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
+            if error <= 1.0 {
+                self.taken += 1;
+                t = if last { end } else { t + h };
+                y.copy_from_slice(&self.trial);
+                self.stages.swap(0, 6);
+                accepted(motion, y);
+                // A step cut short by the end says nothing against the longer one.
+                self.step = if last {
+                    self.step.max(h * factor)
+                } else {
+                    h * factor
+                };
+            } else {
+                self.rejected += 1;
+                self.step = h * factor.min(1.0);
+            }
+        }
+        Ok(())
+    }
+
+    /// Error of a trial step relative to the tolerance; infinite where it has none.
+    fn attempt<M: Motion>(&mut self, motion: &mut M, t: f64, h: f64, y: &[f64]) -> f64 {
+        for i in 1..7 {
+            let (known, new) = self.stages.split_at_mut(i);
+            for (k, trial) in self.trial.iter_mut().enumerate() {
+                let slope: f64 = A[i]
+                    .iter()
+                    .zip(&*known)
+                    .map(|(a, stage)| a * stage[k])
+                    .sum();
+                *trial = y[k] + h * slope;
+            }
+            // A shorter step may get by where a wild trial state has no rate.
+            if motion.rate(t + C[i] * h, &self.trial, &mut new[0]).is_err() {
+                return f64::INFINITY;
+            }
+        }
+        let mut sum = 0.0;
+        for (k, trial) in self.trial.iter().enumerate() {
+            let error: f64 = E
+                .iter()
+                .zip(&self.stages)
+                .map(|(e, stage)| e * stage[k])
+                .sum();
+            let scale = self.absolute + self.relative * y[k].abs().max(trial.abs());
+            sum += (h * error / scale).powi(2);
+        }
+        let error = (sum / y.len() as f64).sqrt();
+        if error.is_nan() { f64::INFINITY } else { error }
+    }
+
+    /// A cautious first step from the size of the rates.
+    fn first_step(&self, y: &[f64], span: f64) -> f64 {
+        let mut worst: f64 = 0.0;
+        for (value, rate) in y.iter().zip(&self.stages[0]) {
+            worst = worst.max(rate.abs() / (1e-3 + value.abs()));
+        }
+        (1e-3 / worst).min(0.01 * span)
+    }
+}

@@ -1,0 +1,231 @@
+//! The unreduced equations of motion (4): inertia matrix and bias forces from body Jacobians.
+
+use super::bodies::Bodies;
+use crate::dynamics::{JointKind, Model};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Mat, MatMut, MatRef, Par};
+use nalgebra::{Matrix3, Vector3};
+
+/// Degrees of freedom of the base: velocity of its origin, then angular velocity, inertial axes.
+pub const BASE: usize = 6;
+
+/// The matrix lost positive definiteness: the state has run away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NotPositiveDefinite;
+
+/// M = Σ JᵀMᵢJ over all bodies with the bias Σ Jᵀ(Mᵢa + ω×Iω), a being the accelerations at zero
+/// generalized acceleration. The base's six coordinates come first, then the joints.
+pub struct MassMatrix {
+    matrix: Mat<f64>,
+    factor: Mat<f64>,
+    bias: Vec<f64>,
+    /// Columns of the current body's Jacobian that are not zero: coordinate, velocity of the
+    /// mass centre and angular velocity for its unit rate.
+    jacobian: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
+    /// Mass and inertia times those columns.
+    weighted: Vec<(Vector3<f64>, Vector3<f64>)>,
+    /// Angular and origin acceleration of every body at zero generalized acceleration.
+    accelerations: Vec<(Vector3<f64>, Vector3<f64>)>,
+    scratch: MemBuffer,
+}
+
+impl MassMatrix {
+    /// Room for `model`.
+    pub fn new(model: &Model) -> Self {
+        let size = BASE + model.joint_count();
+        let zero = Vector3::zeros();
+        Self {
+            matrix: Mat::zeros(size, size),
+            factor: Mat::zeros(size, size),
+            bias: vec![0.0; size],
+            jacobian: Vec::with_capacity(size),
+            weighted: Vec::with_capacity(size),
+            accelerations: vec![(zero, zero); model.joint_count() + 1],
+            scratch: MemBuffer::new(cholesky_in_place_scratch::<f64>(
+                size,
+                Par::Seq,
+                Default::default(),
+            )),
+        }
+    }
+
+    /// Assembles and factors M for the current `bodies`; the bias for joint rates `dq`.
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] where the factorisation breaks down.
+    pub fn update(
+        &mut self,
+        model: &Model,
+        bodies: &Bodies,
+        dq: &[f64],
+    ) -> Result<(), NotPositiveDefinite> {
+        self.accelerate(model, bodies, dq);
+        self.matrix.fill(0.0);
+        self.bias.fill(0.0);
+        for body in 0..bodies.motions().len() {
+            self.add_body(model, bodies, body);
+        }
+        self.factor.copy_from(&self.matrix);
+        cholesky_in_place(
+            self.factor.as_mut(),
+            Default::default(),
+            Par::Seq,
+            MemStack::new(&mut self.scratch),
+            Default::default(),
+        )
+        .map(drop)
+        .map_err(|_| NotPositiveDefinite)
+    }
+
+    /// The full matrix M; only its lower triangle is filled.
+    pub fn matrix(&self) -> MatRef<'_, f64> {
+        self.matrix.as_ref()
+    }
+
+    /// The bias forces, length 6 + n.
+    pub fn bias(&self) -> &[f64] {
+        &self.bias
+    }
+
+    /// The base's velocity and angular velocity for zero total momentum: H_bb ξ̇ = −H_bm θ̇.
+    pub fn momentum_free(&self, dq: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+        let mut twist = [0.0; BASE];
+        for (row, sum) in twist.iter_mut().enumerate() {
+            for (j, rate) in dq.iter().enumerate() {
+                *sum -= self.matrix[(BASE + j, row)] * rate;
+            }
+        }
+        let base = self.factor.get(..BASE, ..BASE);
+        solve(base, &mut twist);
+        (
+            Vector3::new(twist[0], twist[1], twist[2]),
+            Vector3::new(twist[3], twist[4], twist[5]),
+        )
+    }
+
+    /// Reduced inertia matrix H = H_mm − H_mb H_bb⁻¹ H_bm times `u` (length n).
+    ///
+    /// With the base first, the joints' block of the Cholesky factor is that of this Schur
+    /// complement.
+    pub fn reduced_times(&self, u: &[f64], product: &mut [f64]) {
+        let n = u.len();
+        product.fill(0.0);
+        for column in 0..n {
+            let l = &self.factor.col_as_slice(BASE + column)[BASE..];
+            let along: f64 = (column..n).map(|row| l[row] * u[row]).sum();
+            for row in column..n {
+                product[row] += l[row] * along;
+            }
+        }
+    }
+
+    /// Reduced bias Cθ̇ = c_m − H_mb H_bb⁻¹ c_b, by elimination of the base.
+    pub fn reduced_bias(&self, product: &mut [f64]) {
+        let mut base = [0.0; BASE];
+        base.copy_from_slice(&self.bias[..BASE]);
+        solve(self.factor.get(..BASE, ..BASE), &mut base);
+        for (j, out) in product.iter_mut().enumerate() {
+            let through_base: f64 = (0..BASE)
+                .map(|k| self.matrix[(BASE + j, k)] * base[k])
+                .sum();
+            *out = self.bias[BASE + j] - through_base;
+        }
+    }
+
+    /// Solves M a + bias = [0; τ] for all 6 + n accelerations.
+    pub fn accelerations(&self, torque: &[f64], a: &mut [f64]) {
+        for (value, bias) in a.iter_mut().zip(&self.bias) {
+            *value = -bias;
+        }
+        for (value, torque) in a[BASE..].iter_mut().zip(torque) {
+            *value += torque;
+        }
+        solve(self.factor.as_ref(), a);
+    }
+
+    /// Accelerations that remain when all generalized accelerations are zero.
+    fn accelerate(&mut self, model: &Model, bodies: &Bodies, dq: &[f64]) {
+        let motions = bodies.motions();
+        // The coordinates of the base are its own velocities in inertial axes.
+        self.accelerations[0] = (Vector3::zeros(), Vector3::zeros());
+        for (j, joint) in model.joints().iter().enumerate() {
+            let p = joint.parent.map_or(0, |parent| parent + 1);
+            let (parent, body) = (&motions[p], &motions[j + 1]);
+            let (alpha, origin) = self.accelerations[p];
+            let arm = body.origin - parent.origin;
+            let carried = origin + at(&alpha, &parent.angular, &arm);
+            let moved = parent.angular.cross(&(body.axis * dq[j]));
+            self.accelerations[j + 1] = match joint.kind {
+                JointKind::Revolute => (alpha + moved, carried),
+                JointKind::Prismatic => (alpha, carried + moved * 2.0),
+            };
+        }
+    }
+
+    /// Adds JᵀMᵢJ and Jᵀ(Mᵢa + ω×Iω) of one body.
+    fn add_body(&mut self, model: &Model, bodies: &Bodies, index: usize) {
+        let motions = bodies.motions();
+        let body = &motions[index];
+        self.fill_jacobian(model, bodies, index);
+        self.weighted.clear();
+        self.weighted.extend(
+            self.jacobian
+                .iter()
+                .map(|(_, linear, angular)| (linear * body.mass, body.inertia * angular)),
+        );
+        let (alpha, origin) = self.accelerations[index];
+        let force = (origin + at(&alpha, &body.angular, &(body.center - body.origin))) * body.mass;
+        let moment = body.inertia * alpha + body.angular.cross(&(body.inertia * body.angular));
+        for (column, linear, angular) in &self.jacobian {
+            self.bias[*column] += linear.dot(&force) + angular.dot(&moment);
+            let entries = self.matrix.col_as_slice_mut(*column);
+            for ((row, ..), (momentum, spin)) in self.jacobian.iter().zip(&self.weighted) {
+                if row >= column {
+                    entries[*row] += linear.dot(momentum) + angular.dot(spin);
+                }
+            }
+        }
+    }
+
+    fn fill_jacobian(&mut self, model: &Model, bodies: &Bodies, index: usize) {
+        let motions = bodies.motions();
+        let center = motions[index].center;
+        self.jacobian.clear();
+        let axes = Matrix3::<f64>::identity();
+        for (k, e) in axes.column_iter().enumerate() {
+            let e = e.into_owned();
+            self.jacobian.push((k, e, Vector3::zeros()));
+            self.jacobian
+                .push((3 + k, e.cross(&(center - motions[0].origin)), e));
+        }
+        let mut joint = index.checked_sub(1);
+        while let Some(j) = joint {
+            let carried = &motions[j + 1];
+            let (linear, angular) = match model.joints()[j].kind {
+                JointKind::Revolute => {
+                    (carried.axis.cross(&(center - carried.origin)), carried.axis)
+                }
+                JointKind::Prismatic => (carried.axis, Vector3::zeros()),
+            };
+            self.jacobian.push((BASE + j, linear, angular));
+            joint = model.joints()[j].parent;
+        }
+    }
+}
+
+/// α×r + ω×(ω×r).
+fn at(alpha: &Vector3<f64>, omega: &Vector3<f64>, r: &Vector3<f64>) -> Vector3<f64> {
+    alpha.cross(r) + omega.cross(&omega.cross(r))
+}
+
+/// Overwrites `b` with (LLᵀ)⁻¹b.
+fn solve(lower: MatRef<'_, f64>, b: &mut [f64]) {
+    let size = b.len();
+    let mut b = MatMut::from_column_major_slice_mut(b, size, 1);
+    solve_lower_triangular_in_place(lower, b.as_mut(), Par::Seq);
+    solve_upper_triangular_in_place(lower.transpose(), b, Par::Seq);
+}

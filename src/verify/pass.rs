@@ -1,0 +1,108 @@
+//! One integration over the whole plan, segment by segment and node by node.
+
+use super::bodies::{BaseMotion, Bodies, orientation};
+use super::integrate::{DormandPrince, Motion, Stuck};
+use super::mass_matrix::NotPositiveDefinite;
+use super::{Verification, VerifyError};
+use crate::dynamics::Model;
+use crate::transcription::Discretization;
+use nalgebra::{UnitQuaternion, Vector3};
+
+const RELATIVE: f64 = 1e-10;
+const ABSOLUTE: f64 = 1e-12;
+/// Far above what any plan needs; ends the integration of one that runs away.
+const MAX_STEPS: usize = 1_000_000;
+
+/// The plan at its nodes: what re-integration is compared with.
+pub(super) struct Planned<'a> {
+    pub model: &'a Model,
+    plan: &'a Discretization,
+    angles: usize,
+    bodies: Bodies,
+    still: Vec<f64>,
+}
+
+impl<'a> Planned<'a> {
+    pub fn new(model: &'a Model, plan: &'a Discretization, angles: usize) -> Self {
+        Self {
+            model,
+            plan,
+            angles,
+            bodies: Bodies::new(model),
+            still: vec![0.0; model.joint_count()],
+        }
+    }
+
+    /// Joint positions and rates at node `k`.
+    pub fn joints(&self, k: usize) -> &'a [f64] {
+        &self.plan.state(k)[self.angles..]
+    }
+
+    /// Orientation and position ζ = −R·r_cm of the base at node `k`.
+    pub fn base(&mut self, k: usize) -> (UnitQuaternion<f64>, Vector3<f64>) {
+        let orientation = orientation(self.model, &self.plan.state(k)[..self.angles]);
+        let base = BaseMotion::placed(Vector3::zeros(), orientation);
+        self.bodies
+            .update(self.model, &base, self.joints(k), &self.still);
+        (orientation, -self.bodies.center())
+    }
+}
+
+/// A motion that is integrated along the plan, in τ of each segment.
+pub(super) trait Pass: Motion<Error = NotPositiveDefinite> {
+    /// What is integrated, for messages.
+    const NAME: &'static str;
+    /// The state at t₀.
+    fn start(&mut self) -> Result<Vec<f64>, NotPositiveDefinite>;
+    /// Segment `s` begins.
+    fn enter(&mut self, plan: &Discretization, s: usize);
+    /// A step was taken.
+    fn after_step(&mut self, y: &[f64], found: &mut Verification);
+    /// Node `k` is reached.
+    fn at_node(&mut self, k: usize, y: &[f64], found: &mut Verification);
+}
+
+/// Integrates `pass` over `plan`.
+pub(super) fn run<P: Pass>(
+    mut pass: P,
+    plan: &Discretization,
+    found: &mut Verification,
+) -> Result<(), VerifyError> {
+    let singular = |time| VerifyError::Singular {
+        pass: P::NAME,
+        time,
+    };
+    let mut y = pass.start().map_err(|NotPositiveDefinite| singular(0.0))?;
+    let mut integrator = DormandPrince::new(y.len(), RELATIVE, ABSOLUTE, MAX_STEPS);
+    let mesh = &plan.mesh;
+    for s in 0..mesh.segments() {
+        pass.enter(plan, s);
+        if s > 0 {
+            integrator.change_unit(mesh.width(s) / mesh.width(s - 1));
+        }
+        let nodes = mesh.rule(s).nodes();
+        for (i, ends) in nodes.windows(2).enumerate() {
+            integrator
+                .advance(&mut pass, [ends[0], ends[1]], &mut y, i == 0, |pass, y| {
+                    pass.after_step(y, found);
+                })
+                .map_err(|stuck| {
+                    let time = |tau| mesh.fraction(s, tau) * plan.duration;
+                    match stuck {
+                        Stuck::Rate(tau, NotPositiveDefinite) => singular(time(tau)),
+                        Stuck::Underflow(tau) => VerifyError::StepUnderflow {
+                            pass: P::NAME,
+                            time: time(tau),
+                        },
+                        Stuck::Steps(tau) => VerifyError::StepLimit {
+                            pass: P::NAME,
+                            time: time(tau),
+                            limit: MAX_STEPS,
+                        },
+                    }
+                })?;
+            pass.at_node(mesh.start(s) + i + 1, &y, found);
+        }
+    }
+    Ok(())
+}

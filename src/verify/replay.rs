@@ -1,0 +1,97 @@
+//! The base's motion where the joints follow the planned path exactly, as under a controller
+//! that tracks them.
+
+use super::Verification;
+use super::bodies::{BaseMotion, Bodies};
+use super::forward::{raise, turn_rate, unit, vector, write};
+use super::integrate::Motion;
+use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
+use super::pass::{Pass, Planned};
+use super::polynomial::Polynomial;
+use crate::transcription::Discretization;
+
+/// Integrates the base's position and orientation at zero momentum along the polynomial θ(t).
+///
+/// The rates are those of that polynomial, which is what the joints then truly do; the planned
+/// rates θ̇ agree with them at the collocation points only.
+pub(super) struct Replay<'a> {
+    planned: Planned<'a>,
+    bodies: Bodies,
+    mass: MassMatrix,
+    path: Polynomial,
+    slope: Polynomial,
+    q: Vec<f64>,
+    dq: Vec<f64>,
+}
+
+impl<'a> Replay<'a> {
+    pub fn new(planned: Planned<'a>) -> Self {
+        let n = planned.model.joint_count();
+        Self {
+            bodies: Bodies::new(planned.model),
+            mass: MassMatrix::new(planned.model),
+            planned,
+            path: Polynomial::default(),
+            slope: Polynomial::default(),
+            q: vec![0.0; n],
+            dq: vec![0.0; n],
+        }
+    }
+}
+
+impl Motion for Replay<'_> {
+    type Error = NotPositiveDefinite;
+
+    fn rate(&mut self, tau: f64, y: &[f64], dy: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+        self.path.at(tau, &mut self.q);
+        self.slope.at(tau, &mut self.dq);
+        // The base rate is proportional to the joint rates, so τ serves as time.
+        let base = BaseMotion::placed(vector(y, 0), unit(&y[3..]));
+        self.bodies
+            .update(self.planned.model, &base, &self.q, &self.dq);
+        self.mass
+            .update(self.planned.model, &self.bodies, &self.dq)?;
+        let (velocity, angular) = self.mass.momentum_free(&self.dq);
+        dy[..3].copy_from_slice(velocity.as_slice());
+        turn_rate(&angular, &y[3..], &mut dy[3..]);
+        Ok(())
+    }
+}
+
+impl Pass for Replay<'_> {
+    const NAME: &'static str = "the base along the joint path";
+
+    fn start(&mut self) -> Result<Vec<f64>, NotPositiveDefinite> {
+        let (orientation, position) = self.planned.base(0);
+        let mut y = vec![0.0; 7];
+        y[..3].copy_from_slice(position.as_slice());
+        write(&orientation, &mut y[3..]);
+        Ok(y)
+    }
+
+    fn enter(&mut self, plan: &Discretization, s: usize) {
+        let start = plan.mesh.start(s);
+        let nodes = plan.mesh.rule(s).nodes();
+        let n = self.q.len();
+        let planned = &self.planned;
+        self.path.load(
+            nodes,
+            (start..start + nodes.len()).map(|k| &planned.joints(k)[..n]),
+        );
+        self.slope.load_derivative(&self.path);
+    }
+
+    fn after_step(&mut self, _y: &[f64], _found: &mut Verification) {}
+
+    fn at_node(&mut self, k: usize, y: &[f64], found: &mut Verification) {
+        let (orientation, position) = self.planned.base(k);
+        raise(
+            &mut found.replay_base_attitude_drift,
+            unit(&y[3..]).angle_to(&orientation),
+        );
+        raise(
+            &mut found.replay_base_position_drift,
+            (vector(y, 0) - position).norm(),
+        );
+    }
+}

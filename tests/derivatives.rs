@@ -1,0 +1,406 @@
+//! Jacobian and Hessian of whole programmes against `num-dual`, an independent exact method, and
+//! against their own sparsity pattern.
+
+mod common;
+
+use ffsm_ipopt::autodiff::Scalar;
+use ffsm_ipopt::collocation::Mesh;
+use ffsm_ipopt::dynamics::Model;
+use ffsm_ipopt::nlp::Nlp;
+use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, Interval, Ocp, Point, Quantity};
+use ffsm_ipopt::planner::{FreeFloating, Problem};
+use ffsm_ipopt::transcription::{Patterns, Transcription};
+use num_dual::{DualNum, HyperDual64};
+use num_traits::{One, Zero};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A `num-dual` number as a [`Scalar`]: arithmetic and functions are all its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Reference(HyperDual64);
+
+macro_rules! operators {
+    ($($trait:ident $method:ident $assign_trait:ident $assign:ident),*) => {$(
+        impl $trait for Reference {
+            type Output = Self;
+            fn $method(self, rhs: Self) -> Self { Self($trait::$method(self.0, rhs.0)) }
+        }
+        impl $trait<f64> for Reference {
+            type Output = Self;
+            fn $method(self, rhs: f64) -> Self {
+                Self($trait::$method(self.0, HyperDual64::from_re(rhs)))
+            }
+        }
+        impl $assign_trait for Reference {
+            fn $assign(&mut self, rhs: Self) { *self = $trait::$method(*self, rhs); }
+        }
+    )*};
+}
+operators!(Add add AddAssign add_assign, Sub sub SubAssign sub_assign, Mul mul MulAssign mul_assign);
+
+impl Div for Reference {
+    type Output = Self;
+    fn div(self, rhs: Self) -> Self {
+        Self(self.0 / rhs.0)
+    }
+}
+impl Neg for Reference {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+impl Zero for Reference {
+    fn zero() -> Self {
+        Self::constant(0.0)
+    }
+    fn is_zero(&self) -> bool {
+        self.0.re == 0.0
+    }
+}
+impl One for Reference {
+    fn one() -> Self {
+        Self::constant(1.0)
+    }
+}
+impl Scalar for Reference {
+    fn constant(value: f64) -> Self {
+        Self(HyperDual64::from_re(value))
+    }
+    fn value(&self) -> f64 {
+        self.0.re
+    }
+    fn chain(self, value: f64, first: f64, second: f64) -> Self {
+        let HyperDual64 {
+            eps1,
+            eps2,
+            eps1eps2,
+            ..
+        } = self.0;
+        let both = first * eps1eps2 + second * eps1 * eps2;
+        Self(HyperDual64::new(value, first * eps1, first * eps2, both))
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.0.sin_cos();
+        (Self(s), Self(c))
+    }
+    fn recip(self) -> Self {
+        Self(self.0.recip())
+    }
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+}
+
+/// Objective and constraints of the programme, written out anew from (25) to (27).
+fn programme<O: Ocp>(ocp: &O, mesh: &Mesh, v: &[Reference]) -> (Reference, Vec<Reference>) {
+    let f: Formulation = ocp.formulation();
+    let (n, m) = f.widths();
+    let width = n + m;
+    let node = |k: usize| &v[k * width..];
+    let duration = if f.duration.is_fixed() {
+        Reference::constant(f.duration.lower)
+    } else {
+        v[v.len() - 1]
+    };
+    let mut scratch = ocp.scratch();
+    let mut rows = Vec::new();
+    let mut cost = Reference::zero();
+    let points = mesh.points();
+    let mut k = 0;
+    for s in 0..mesh.segments() {
+        let rule = mesh.rule(s);
+        let half = duration * (0.5 * mesh.width(s));
+        for i in 0..rule.len() {
+            let t = duration * mesh.fraction(s, rule.points()[i]);
+            let mut rates = vec![Reference::zero(); n];
+            let mut path = vec![Reference::zero(); f.path.len()];
+            let point = Point {
+                x: &node(k)[..n],
+                u: &node(k)[n..width],
+                t,
+            };
+            let running = ocp.continuous(point, &mut scratch, &mut rates, &mut path);
+            cost += running * half * rule.weights()[i];
+            for r in 0..n {
+                let mut defect = Reference::zero();
+                for (j, &d) in rule.differentiation(i).iter().enumerate() {
+                    defect += node(mesh.start(s) + j)[r] * d;
+                }
+                rows.push(defect - half * rates[r]);
+            }
+            rows.extend(path);
+            k += 1;
+        }
+    }
+    let mut boundary = vec![Reference::zero(); f.boundary.len()];
+    let ends = Ends {
+        initial: &node(0)[..n],
+        terminal: &node(points)[..n],
+        duration,
+    };
+    cost += ocp.boundary(ends, &mut scratch, &mut boundary);
+    rows.extend(boundary);
+    (cost, rows)
+}
+
+fn random_within(bounds: (f64, f64), random: &mut fastrand::Rng) -> f64 {
+    let (lower, upper) = (bounds.0.max(-1.2), bounds.1.min(1.2));
+    if lower < upper {
+        lower + random.f64() * (upper - lower)
+    } else {
+        bounds.0
+    }
+}
+
+/// Compares everything at two random points; every nonzero must be alive at one of them.
+fn check<O: Ocp>(ocp: &O, mesh: Mesh) {
+    let mut nlp = Transcription::new(ocp, &Patterns::detect(ocp), mesh.clone());
+    let size = nlp.size();
+    let (n, m) = (size.variables, size.constraints);
+    let mut random = fastrand::Rng::with_seed(7);
+    let (mut rows, mut columns) = (
+        vec![0; size.jacobian_nonzeros],
+        vec![0; size.jacobian_nonzeros],
+    );
+    nlp.jacobian_structure(&mut rows, &mut columns);
+    let (mut h_rows, mut h_columns) = (
+        vec![0; size.hessian_nonzeros],
+        vec![0; size.hessian_nonzeros],
+    );
+    nlp.hessian_structure(&mut h_rows, &mut h_columns);
+    assert!(
+        h_rows.iter().zip(&h_columns).all(|(r, c)| r >= c),
+        "lower triangle only"
+    );
+    let mut alive = (vec![false; rows.len()], vec![false; h_rows.len()]);
+    let (mut lower, mut upper) = (vec![0.0; n], vec![0.0; n]);
+    nlp.variable_bounds(&mut lower, &mut upper);
+
+    for _ in 0..2 {
+        let x: Vec<f64> = (0..n)
+            .map(|i| random_within((lower[i] - 0.3, upper[i] + 0.4), &mut random))
+            .collect();
+        let lambda: Vec<f64> = (0..m).map(|_| 2.0 * random.f64() - 1.0).collect();
+        let sigma = 0.7;
+        nlp.new_point();
+        let mut gradient = vec![0.0; n];
+        let mut values = vec![0.0; rows.len()];
+        let mut hessian = vec![0.0; h_rows.len()];
+        let mut constraints = vec![0.0; m];
+        nlp.hessian(&x, sigma, &lambda, &mut hessian).unwrap();
+        nlp.jacobian(&x, &mut values).unwrap();
+        nlp.gradient(&x, &mut gradient).unwrap();
+        nlp.constraints(&x, &mut constraints).unwrap();
+        let objective = nlp.objective(&x).unwrap();
+
+        let mut jacobian = vec![vec![0.0; n]; m];
+        rows.iter()
+            .zip(&columns)
+            .zip(&values)
+            .for_each(|((&r, &c), v)| jacobian[r][c] += v);
+        let mut dense = vec![vec![0.0; n]; n];
+        h_rows
+            .iter()
+            .zip(&h_columns)
+            .zip(&hessian)
+            .for_each(|((&r, &c), v)| dense[r][c] += v);
+        let mut expected_hessian = vec![vec![0.0; n]; n];
+        for i in 0..n {
+            for j in 0..=i {
+                let seeded: Vec<Reference> = (0..n)
+                    .map(|k| {
+                        let one = |hit: bool| if hit { 1.0 } else { 0.0 };
+                        Reference(HyperDual64::new(x[k], one(k == i), one(k == j), 0.0))
+                    })
+                    .collect();
+                let (f, g) = programme(ocp, &mesh, &seeded);
+                if j == i {
+                    close(f.0.re, objective, objective.abs(), "objective");
+                    close(gradient[i], f.0.eps1, f.0.eps1.abs().max(1.0), "gradient");
+                    for r in 0..m {
+                        close(constraints[r], g[r].0.re, 10.0, "constraint");
+                        let scale = g[r].0.eps1.abs().max(1.0);
+                        close(jacobian[r][i], g[r].0.eps1, scale, &nlp.constraint_name(r));
+                    }
+                }
+                expected_hessian[i][j] = sigma * f.0.eps1eps2
+                    + g.iter()
+                        .zip(&lambda)
+                        .map(|(g, l)| l * g.0.eps1eps2)
+                        .sum::<f64>();
+            }
+        }
+        let scale = expected_hessian
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |a, b| a.max(b.abs()));
+        for i in 0..n {
+            for j in 0..=i {
+                let what = format!("{} × {}", nlp.variable_name(i), nlp.variable_name(j));
+                close(dense[i][j], expected_hessian[i][j], scale, &what);
+            }
+        }
+        alive
+            .0
+            .iter_mut()
+            .zip(&values)
+            .for_each(|(a, v)| *a |= v.abs() > 1e-13);
+        alive
+            .1
+            .iter_mut()
+            .zip(&hessian)
+            .for_each(|(a, v)| *a |= v.abs() > 1e-13 * scale);
+    }
+    for (k, alive) in alive.0.iter().enumerate() {
+        let (row, column) = (nlp.constraint_name(rows[k]), nlp.variable_name(columns[k]));
+        assert!(alive, "structural zero in the Jacobian: {row} by {column}");
+    }
+    for (k, alive) in alive.1.iter().enumerate() {
+        let (row, column) = (
+            nlp.variable_name(h_rows[k]),
+            nlp.variable_name(h_columns[k]),
+        );
+        assert!(alive, "structural zero in the Hessian: {row} × {column}");
+    }
+}
+
+/// Relative to `scale` to 1e-10, as the derivatives must be.
+fn close(found: f64, expected: f64, scale: f64, what: &str) {
+    assert!(
+        (found - expected).abs() <= 1e-10 * scale.max(1e-3),
+        "{what}: {found:e} instead of {expected:e}"
+    );
+}
+
+/// Every weight and every limit at work.
+fn loaded(robot: Model) -> Problem {
+    let n = robot.joint_count();
+    let mut problem = Problem::new("loaded", robot, 3.0, &vec![0.1; n], &vec![0.5; n]);
+    let (angles, lengths) = Problem::base_sizes(&problem.robot);
+    problem.cost.final_base_attitude = vec![1.3; angles];
+    problem.cost.final_base_position = vec![0.8; lengths];
+    problem.cost.base_rate = vec![0.6; angles];
+    problem.cost.joint_rate = vec![0.2; n];
+    problem.cost.control = vec![0.1; n];
+    problem.limits.base_rate = vec![Interval::symmetric(0.6); angles];
+    problem
+}
+
+fn check_problem(problem: &Problem, mesh: Mesh) {
+    problem.validate().unwrap();
+    match FreeFloating::planar(problem) {
+        Some(planar) => check(&planar, mesh),
+        None => check(&FreeFloating::spatial(problem), mesh),
+    }
+}
+
+fn small() -> Mesh {
+    Mesh::new(vec![0.0, 0.3, 1.0], &[2, 1]).unwrap()
+}
+
+#[test]
+fn two_joints_in_the_plane() {
+    check_problem(&loaded(common::two_link()), small());
+    check_problem(&common::relaxed(), small());
+    check_problem(&common::smooth(), small());
+}
+
+#[test]
+fn two_joints_in_the_plane_treated_in_space() {
+    let mut problem = loaded(common::two_link().in_space());
+    problem.cost.torque = vec![0.0; 2];
+    let mesh = Mesh::uniform(1, 2).unwrap();
+    // Motion stays in the plane, so that out-of-plane terms vanish on the joints alone, not by
+    // the base's own roll and pitch.
+    check_problem(&problem, mesh);
+}
+
+#[test]
+fn torque_rows_and_costs() {
+    let mut problem = loaded(common::two_link());
+    problem.limits.torque = vec![Interval::symmetric(2.0); 2];
+    problem.cost.torque = vec![0.3, 0.4];
+    problem.cost.rate_matrix = Some(vec![
+        vec![0.1, 0.05, 0.0],
+        vec![0.05, 0.2, -0.03],
+        vec![0.0, -0.03, 0.4],
+    ]);
+    check_problem(&problem, small());
+}
+
+#[test]
+fn free_duration() {
+    let mut problem = loaded(common::two_link());
+    problem.task.duration = Interval::new(1.0, 5.0);
+    check_problem(&problem, small());
+}
+
+#[test]
+fn three_joints_in_space() {
+    check_problem(&loaded(common::random_chain(3, 3)), small());
+}
+
+#[test]
+fn a_tree_with_a_sliding_joint() {
+    let robot = common::random_tree(&[None, Some(0), Some(0), None], &[1, 3], 11);
+    check_problem(&loaded(robot), Mesh::uniform(1, 2).unwrap());
+}
+
+#[test]
+fn seven_joints_in_space() {
+    check_problem(
+        &loaded(common::random_chain(7, 5)),
+        Mesh::uniform(1, 2).unwrap(),
+    );
+}
+
+#[test]
+fn elastic_limits() {
+    let problem = common::published();
+    let system = FreeFloating::planar(&problem).unwrap();
+    check(&Elastic::new(&system, system.limit_groups(), 1e-3), small());
+}
+
+/// Dynamics, path, boundary rows and costs that depend on time explicitly, with a free duration.
+struct TimeVarying;
+
+impl Ocp for TimeVarying {
+    type Scratch<S: Scalar> = ();
+
+    fn formulation(&self) -> Formulation {
+        let free = Interval::FREE;
+        let named = |name: &str| Quantity::new(name, free);
+        Formulation {
+            states: vec![named("x"), named("y")],
+            controls: vec![named("u")],
+            path: vec![named("path")],
+            boundary: vec![named("ends")],
+            initial: vec![free; 2],
+            terminal: vec![free; 2],
+            duration: Interval::new(0.5, 1.5),
+        }
+    }
+
+    fn scratch<S: Scalar>(&self) {}
+
+    fn continuous<S: Scalar>(&self, p: Point<'_, S>, _: &mut (), f: &mut [S], path: &mut [S]) -> S {
+        let (x, y, u, t) = (p.x[0], p.x[1], p.u[0], p.t);
+        // Nothing here vanishes at t = 0, where the first point stands.
+        let late = t + 1.0;
+        f[0] = y * late.sin() + u * late;
+        f[1] = x.square() * late.square() - y.exp() * u;
+        path[0] = x * u * late + late.square() * y;
+        u.square() * (x * late).cos() + late * late * late
+    }
+
+    fn boundary<S: Scalar>(&self, ends: Ends<'_, S>, _: &mut (), rows: &mut [S]) -> S {
+        let (a, b, t) = (ends.initial, ends.terminal, ends.duration);
+        rows[0] = a[0] * b[1] * t + b[0].square();
+        (t * a[1]).sin() + b[1].square() * t
+    }
+}
+
+#[test]
+fn explicit_time_with_a_free_duration() {
+    check(&TimeVarying, small());
+}
