@@ -1,7 +1,7 @@
 //! Jacobian and Hessian of whole programmes against `num-dual`, an independent exact method, and
 //! against their own sparsity pattern.
 
-mod common;
+mod problems;
 
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
@@ -300,14 +300,14 @@ fn small() -> Mesh {
 
 #[test]
 fn two_joints_in_the_plane() {
-    check_problem(&loaded(common::two_link()), small());
-    check_problem(&common::relaxed(), small());
-    check_problem(&common::smooth(), small());
+    check_problem(&loaded(problems::two_link()), small());
+    check_problem(&problems::relaxed(), small());
+    check_problem(&problems::smooth(), small());
 }
 
 #[test]
 fn two_joints_in_the_plane_treated_in_space() {
-    let mut problem = loaded(common::two_link().in_space());
+    let mut problem = loaded(problems::two_link().in_space());
     problem.cost.torque = vec![0.0; 2];
     let mesh = Mesh::uniform(1, 2).unwrap();
     // Motion stays in the plane, so that out-of-plane terms vanish on the joints alone, not by
@@ -317,7 +317,7 @@ fn two_joints_in_the_plane_treated_in_space() {
 
 #[test]
 fn torque_rows_and_costs() {
-    let mut problem = loaded(common::two_link());
+    let mut problem = loaded(problems::two_link());
     problem.limits.torque = vec![Interval::symmetric(2.0); 2];
     problem.cost.torque = vec![0.3, 0.4];
     problem.cost.rate_matrix = Some(vec![
@@ -330,33 +330,33 @@ fn torque_rows_and_costs() {
 
 #[test]
 fn free_duration() {
-    let mut problem = loaded(common::two_link());
+    let mut problem = loaded(problems::two_link());
     problem.task.duration = Interval::new(1.0, 5.0);
     check_problem(&problem, small());
 }
 
 #[test]
 fn three_joints_in_space() {
-    check_problem(&loaded(common::random_chain(3, 3)), small());
+    check_problem(&loaded(problems::random_chain(3, 3)), small());
 }
 
 #[test]
 fn a_tree_with_a_sliding_joint() {
-    let robot = common::random_tree(&[None, Some(0), Some(0), None], &[1, 3], 11);
+    let robot = problems::random_tree(&[None, Some(0), Some(0), None], &[1, 3], 11);
     check_problem(&loaded(robot), Mesh::uniform(1, 2).unwrap());
 }
 
 #[test]
 fn seven_joints_in_space() {
     check_problem(
-        &loaded(common::random_chain(7, 5)),
+        &loaded(problems::random_chain(7, 5)),
         Mesh::uniform(1, 2).unwrap(),
     );
 }
 
 #[test]
 fn elastic_limits() {
-    let problem = common::published();
+    let problem = problems::published();
     let system = FreeFloating::planar(&problem).unwrap();
     check(&Elastic::new(&system, system.limit_groups(), 1e-3), small());
 }

@@ -167,7 +167,6 @@ impl Planner {
                 status = grade(&outcome, stopped);
             }
         }
-        let verification = None;
         let trajectory = trajectory(system, &outcome.trajectory);
         Ok(Plan {
             status,
@@ -181,7 +180,7 @@ impl Planner {
             discretization: outcome.trajectory,
             iterate: outcome.iterate,
             trajectory,
-            verification,
+            verification: None,
             diagnosis: finding,
         })
     }

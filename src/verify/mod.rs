@@ -1,6 +1,9 @@
 //! Independent checks of a plan: re-integration of the full, unreduced dynamics, momentum and
 //! energy balance. Shares no algorithm with [`crate::dynamics`] beyond the model's description.
 //!
+//! Of plans that are exact but for rounding (17 s, two to eight joints), the drift found is below
+//! 1e-11 rad and m: what is above that belongs to the plan.
+//!
 //! | file | does |
 //! | --- | --- |
 //! | `bodies` | poses, velocities and momentum of all bodies by forward kinematics |
@@ -63,18 +66,21 @@ pub enum VerifyError {
         /// Name of the robot.
         robot: String,
     },
-    /// A state, a control or the duration is not a usable number.
+    /// A state or a control is not a number.
     #[error(
         "the plan's {what} at t = {time:.6} s is {value}, expected a finite number; the plan is damaged or planning failed, plan again"
     )]
     NotFinite {
-        /// "state", "control" or "duration".
+        /// "state" or "control".
         what: &'static str,
         /// Time, s.
         time: f64,
         /// What stands there.
         value: f64,
     },
+    /// The duration is not a time.
+    #[error("the plan's duration is {0} s, expected a finite duration above zero")]
+    Duration(f64),
     /// The integrator's step became shorter than time resolves.
     #[error(
         "re-integration of {pass} stops at t = {time:.6} s: no step is short enough for the tolerance; the planned control drives the motion out of range there, tighten the limits on joint rates and controls or refine the mesh"
@@ -148,11 +154,7 @@ fn check(robot: &str, angles: usize, n: usize, plan: &Discretization) -> Result<
         }
     }
     if !(plan.duration.is_finite() && plan.duration > 0.0) {
-        return Err(VerifyError::NotFinite {
-            what: "duration",
-            time: 0.0,
-            value: plan.duration,
-        });
+        return Err(VerifyError::Duration(plan.duration));
     }
     for (what, values, width) in [("state", &plan.x, states), ("control", &plan.u, controls)] {
         if let Some(i) = values.iter().position(|value| !value.is_finite()) {

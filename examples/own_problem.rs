@@ -1,0 +1,78 @@
+//! Any optimal control problem: the fastest slide between two points, by the generic interface.
+//!
+//! ```sh
+//! cargo run --release --example own_problem
+//! ```
+
+use ffsm_ipopt::autodiff::Scalar;
+use ffsm_ipopt::nlp::{self, Control};
+use ffsm_ipopt::ocp::{Ends, Formulation, Interval, Ocp, Point, Quantity};
+use ffsm_ipopt::refine::{Refinement, Settings};
+use ffsm_ipopt::transcription::Patterns;
+use std::error::Error;
+use std::f64::consts::FRAC_PI_2;
+
+/// States: along, down (m), speed (m/s). Control: slope of the path (rad).
+struct Slide;
+
+impl Ocp for Slide {
+    type Scratch<S: Scalar> = ();
+
+    fn formulation(&self) -> Formulation {
+        let state = |name: &str| Quantity::new(name, Interval::FREE);
+        Formulation {
+            states: vec![state("along"), state("down"), state("speed")],
+            controls: vec![Quantity::new("slope", Interval::new(0.0, FRAC_PI_2))],
+            path: vec![],
+            boundary: vec![],
+            initial: vec![Interval::fixed(0.0); 3],
+            terminal: vec![Interval::fixed(2.0), Interval::fixed(2.0), Interval::FREE],
+            duration: Interval::new(0.1, 10.0),
+        }
+    }
+
+    fn scratch<S: Scalar>(&self) {}
+
+    fn continuous<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        _: &mut (),
+        rates: &mut [S],
+        _: &mut [S],
+    ) -> S {
+        let (sin, cos) = point.u[0].sin_cos();
+        rates[0] = point.x[2] * cos;
+        rates[1] = point.x[2] * sin;
+        rates[2] = sin * 9.81;
+        S::zero()
+    }
+
+    fn boundary<S: Scalar>(&self, ends: Ends<'_, S>, _: &mut (), _: &mut [S]) -> S {
+        ends.duration
+    }
+}
+
+pub fn main() -> Result<(), Box<dyn Error>> {
+    let settings = Settings {
+        segments: 4,
+        points: 6,
+        tolerance: 1e-7,
+        ..Settings::default()
+    };
+    let refinement = Refinement {
+        ocp: &Slide,
+        patterns: &Patterns::detect(&Slide),
+        settings: &settings,
+        solver: &nlp::Settings::default(),
+    };
+    let start = refinement.straight_start()?;
+    let outcome = refinement.run(&start, &mut |_| Control::Continue)?;
+    println!(
+        "t_f = {:.9} s (known: 0.824338669), {} points, largest error {:.1e}",
+        outcome.objective,
+        outcome.trajectory.mesh.points(),
+        outcome.max_error()
+    );
+    assert!(outcome.converged && (outcome.objective - 0.824338669).abs() < 1e-8);
+    Ok(())
+}

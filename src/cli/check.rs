@@ -1,0 +1,234 @@
+//! `check`: what a problem file was understood to say.
+
+use super::failure::Failure;
+use super::show::{Quantity, by_name, rounded};
+use super::{Outcome, terminal};
+use crate::config::{Overrides, ProblemFile};
+use crate::dynamics::JointKind;
+use crate::ocp::Interval;
+use crate::planner::{Problem, straight_line};
+use crate::refine::Method;
+use crate::report::Lines;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Validate a problem and print what was understood; solves nothing
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Problem file
+    #[arg(value_name = "PROBLEM.toml")]
+    problem: PathBuf,
+}
+
+/// Reads, prints.
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let file = ProblemFile::load(&arguments.problem, &Overrides::default())?;
+    let problem = &file.problem;
+    let mut lines = Lines::default();
+    robot(&mut lines, problem, &file.robot.path);
+    task(&mut lines, problem);
+    limits(&mut lines, problem);
+    cost(&mut lines, problem);
+    mesh(&mut lines, problem);
+    terminal::print(&format!(
+        "{}: valid\n\n{}\n{}\n",
+        file.path,
+        lines.finish(),
+        straight(problem)
+    ))?;
+    Ok(Outcome::Done)
+}
+
+fn robot(lines: &mut Lines, problem: &Problem, path: &str) {
+    let robot = &problem.robot;
+    let n = robot.joint_count();
+    let (angles, lengths) = Problem::base_sizes(robot);
+    lines.add("problem", &problem.name);
+    lines.add("robot", format!("{}, from {path}", robot.name()));
+    let bodies: Vec<String> = std::iter::once(robot.base())
+        .chain(robot.joints().iter().map(|joint| &joint.body))
+        .map(|body| format!("{} {} kg", body.name, rounded(body.inertia.mass())))
+        .collect();
+    lines.add("bodies", format!("{}: {}", bodies.len(), bodies.join(", ")));
+    lines.add("total mass", format!("{} kg", rounded(robot.total_mass())));
+    let motion = match robot.plane() {
+        Some(_) => "planar; the base attitude is one angle",
+        None => "spatial; the base attitude is roll, pitch, yaw",
+    };
+    lines.add("motion", motion);
+    lines.add(
+        "degrees of freedom",
+        format!(
+            "{}: {n} of the joints, {} of the base",
+            n + angles + lengths,
+            angles + lengths
+        ),
+    );
+    lines.add(
+        "states",
+        format!(
+            "{}: {angles} base attitude, {n} joint positions, {n} joint rates",
+            angles + 2 * n
+        ),
+    );
+    lines.add("controls", format!("{n}: u = H⁻¹τ"));
+}
+
+fn task(lines: &mut Lines, problem: &Problem) {
+    let task = &problem.task;
+    let Interval { lower, upper } = task.duration;
+    let duration = if task.duration.is_fixed() {
+        format!("{} s", rounded(lower))
+    } else {
+        format!("free, {} to {} s", rounded(lower), rounded(upper))
+    };
+    lines.add("duration", duration);
+    for (i, joint) in problem.robot.joints().iter().enumerate() {
+        let at = |value| Quantity::Position(joint.kind).show(value);
+        let mut motion = format!(
+            "{} to {}",
+            at(task.initial_joints[i]),
+            at(task.final_joints[i])
+        );
+        if task.initial_rates[i] != 0.0 {
+            let rate = Quantity::Rate(joint.kind).show(task.initial_rates[i]);
+            motion.push_str(&format!(", starting at {rate}"));
+        }
+        lines.add(&format!("joint {}", joint.name), motion);
+    }
+}
+
+fn limits(lines: &mut Lines, problem: &Problem) {
+    type Of = fn(JointKind) -> Quantity;
+    let limits = &problem.limits;
+    let joints = problem.robot.joints();
+    let names: Vec<String> = joints.iter().map(|joint| joint.name.clone()).collect();
+    lines.add("limits", "");
+    for (label, bounds, quantity) in [
+        (
+            "joint position",
+            &limits.joint_position,
+            Quantity::Position as Of,
+        ),
+        ("joint velocity", &limits.joint_velocity, Quantity::Rate),
+        ("control", &limits.control, Quantity::Acceleration),
+        ("torque", &limits.torque, Quantity::Effort),
+    ] {
+        let shown: Vec<String> = joints
+            .iter()
+            .zip(bounds)
+            .map(|(joint, bound)| quantity(joint.kind).show_interval(bound))
+            .collect();
+        lines.add(&format!("  {label}"), by_name(&names, &shown));
+    }
+    let angles = angle_names(problem);
+    for (label, bounds, quantity) in [
+        (
+            "base attitude",
+            &limits.base_attitude,
+            Quantity::Position as Of,
+        ),
+        (
+            "final attitude",
+            &limits.final_base_attitude,
+            Quantity::Position,
+        ),
+        ("base rate", &limits.base_rate, Quantity::Rate),
+    ] {
+        let shown: Vec<String> = bounds
+            .iter()
+            .map(|bound| quantity(JointKind::Revolute).show_interval(bound))
+            .collect();
+        lines.add(&format!("  {label}"), by_name(&angles, &shown));
+    }
+}
+
+fn angle_names(problem: &Problem) -> Vec<String> {
+    let names: &[&str] = if problem.robot.plane().is_some() {
+        &["angle"]
+    } else {
+        &["roll", "pitch", "yaw"]
+    };
+    names.iter().map(|name| name.to_string()).collect()
+}
+
+fn cost(lines: &mut Lines, problem: &Problem) {
+    let cost = &problem.cost;
+    let joints: Vec<String> = problem
+        .robot
+        .joints()
+        .iter()
+        .map(|joint| joint.name.clone())
+        .collect();
+    let angles = angle_names(problem);
+    let lengths = ["x", "y", "z"].map(String::from);
+    let mut terms: Vec<String> = [
+        ("‖η(t_f)‖²", &cost.final_base_attitude, &angles[..]),
+        (
+            "‖Δζ(t_f)‖²",
+            &cost.final_base_position,
+            &lengths[..cost.final_base_position.len()],
+        ),
+        ("∫‖η̇‖²", &cost.base_rate, &angles),
+        ("∫‖θ̇‖²", &cost.joint_rate, &joints),
+        ("∫‖u‖²", &cost.control, &joints),
+        ("∫‖τ‖²", &cost.torque, &joints),
+    ]
+    .into_iter()
+    .filter(|(_, weights, _)| weights.iter().any(|weight| *weight != 0.0))
+    .map(|(term, weights, names)| {
+        let shown: Vec<String> = weights.iter().map(|weight| rounded(*weight)).collect();
+        match by_name(names, &shown) {
+            weight if weight.contains(' ') => format!("({weight}) {term}"),
+            weight => format!("{weight} {term}"),
+        }
+    })
+    .collect();
+    if cost.rate_matrix.is_some() {
+        terms.push("∫[η̇, θ̇]ᵀΛ[η̇, θ̇] with the full matrix".into());
+    }
+    lines.add(
+        "cost J",
+        if terms.is_empty() {
+            "0: any feasible motion".into()
+        } else {
+            terms.join(" + ")
+        },
+    );
+}
+
+fn mesh(lines: &mut Lines, problem: &Problem) {
+    let mesh = &problem.mesh;
+    let first = match mesh.method {
+        Method::Adaptive => format!(
+            "a-rpm: {} segments of {} points, at most {} points and {} iterations",
+            mesh.segments, mesh.points, mesh.max_points, mesh.max_iterations
+        ),
+        Method::Global => format!(
+            "rpm: one segment of {} points, at most {}",
+            mesh.global_points, mesh.max_global_points
+        ),
+    };
+    lines.add("mesh", format!("{first}; tolerance {:e}", mesh.tolerance));
+}
+
+/// Base motion when the joints move along the straight line.
+fn straight(problem: &Problem) -> String {
+    let found = straight_line(problem);
+    let list = |values: &[f64], factor: f64, decimals: usize| {
+        let shown: Vec<String> = values
+            .iter()
+            .map(|value| format!("{:.decimals$}", factor * value))
+            .collect();
+        if shown.len() == 1 {
+            shown[0].clone()
+        } else {
+            format!("({})", shown.join(", "))
+        }
+    };
+    format!(
+        "straight-line base motion: {}°, {} cm",
+        list(&found.base_attitude, 1f64.to_degrees(), 5),
+        list(&found.base_displacement, 100.0, 6)
+    )
+}

@@ -1,0 +1,93 @@
+//! What keeps a command from being carried out, and the exit status it ends with.
+
+use crate::config::{ConfigError, ProblemFile};
+use crate::nlp::ipopt::IpoptError;
+use crate::planner::PlanError;
+use crate::report::{OutputError, WarmStartError};
+use std::path::Path;
+
+/// What keeps a command from being carried out.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    #[error(transparent)]
+    WarmStart(#[from] WarmStartError),
+    #[error("{path}: {source}")]
+    Start { path: String, source: PlanError },
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error("{path}: {source}")]
+    Plan { path: String, source: PlanError },
+    #[error("{path}: the solution cannot be written: {message}")]
+    Format { path: String, message: String },
+    #[error("standard output cannot be written: {0}")]
+    Terminal(std::io::Error),
+    #[error("no linear solver works with this Ipopt; install one, such as MUMPS")]
+    NoLinearSolver,
+}
+
+impl Failure {
+    /// 2 where the input is to blame, else 1.
+    pub(super) fn code(&self) -> u8 {
+        match self {
+            Self::Config(_) | Self::WarmStart(_) | Self::Start { .. } => 2,
+            Self::Output(OutputError::Folder { .. }) => 2,
+            Self::Output(OutputError::File { .. }) => 1,
+            Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,
+            Self::NoLinearSolver => 1,
+        }
+    }
+
+    /// The failure of planning the problem in `file`, put down to the key that is to blame.
+    pub(super) fn planning(
+        file: &ProblemFile,
+        warm_start: Option<&Path>,
+        error: PlanError,
+    ) -> Self {
+        let value = |key: &str, found: String, expected: &str| {
+            Self::Config(ConfigError::Value {
+                place: file.place(key),
+                key: key.into(),
+                found,
+                expected: expected.into(),
+            })
+        };
+        match (error, warm_start) {
+            (PlanError::Problem(error), _) => Self::Config(file.blame(error)),
+            (PlanError::Ipopt(IpoptError::OptionRefused { name, value: given }), _) => {
+                let key = match name.as_str() {
+                    "linear_solver" => "solver.linear_solver".into(),
+                    "tol" => "solver.tolerance".into(),
+                    _ => format!("solver.options.{name}"),
+                };
+                value(&key, given, "an option and value that this Ipopt knows")
+            }
+            (PlanError::Ipopt(IpoptError::OptionsRefused { linear_solver }), _) => {
+                let expected = "a linear solver that works here, see ffsm-ipopt doctor";
+                value("solver.linear_solver", linear_solver, expected)
+            }
+            (PlanError::Ipopt(error @ IpoptError::MissingLibrary { .. }), _) => {
+                let expected = "a linear solver that works here, see ffsm-ipopt doctor";
+                value("solver.linear_solver", error.to_string(), expected)
+            }
+            (source @ PlanError::Start { .. }, Some(path)) => Self::Start {
+                path: path.display().to_string(),
+                source,
+            },
+            (
+                source @ PlanError::Ipopt(
+                    IpoptError::StartDimension { .. } | IpoptError::StartNotFinite { .. },
+                ),
+                Some(path),
+            ) => Self::Start {
+                path: path.display().to_string(),
+                source,
+            },
+            (source, _) => Self::Plan {
+                path: file.path.clone(),
+                source,
+            },
+        }
+    }
+}

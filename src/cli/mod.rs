@@ -1,0 +1,68 @@
+//! The command line; one file a command.
+
+mod check;
+mod doctor;
+mod failure;
+mod interrupt;
+mod plan;
+mod progress;
+mod show;
+mod table2;
+mod table2_report;
+mod terminal;
+
+use crate::report::Build;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Exit status of a command that did what it was asked for.
+///
+/// What went wrong otherwise is told by [`failure::Failure::code`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Done = 0,
+    Infeasible = 3,
+    NotConverged = 4,
+    Interrupted = 130,
+}
+
+/// Plans trajectories of free-floating space manipulators that disturb their base least.
+///
+/// Adaptive Radau pseudospectral method over the system Ipopt.
+#[derive(Debug, Parser)]
+#[command(name = "ffsm-ipopt", version = Build::VERSION, after_help = EXIT_STATUS)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_STATUS: &str = "Exit status: 0 solved, 1 internal or I/O failure, 2 bad usage or \
+    input, 3 infeasible, 4 not converged, 130 interrupted";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Plan(plan::Arguments),
+    Check(check::Arguments),
+    Table2(table2::Arguments),
+    Doctor(doctor::Arguments),
+}
+
+/// Runs the command of this process's arguments.
+///
+/// Results go to standard output, all else to standard error. Bad usage ends the process here
+/// with status 2.
+pub fn run() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Table2(arguments) => table2::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
+    };
+    match result {
+        Ok(outcome) => ExitCode::from(outcome as u8),
+        Err(failure) => {
+            terminal::warn(&failure.to_string());
+            ExitCode::from(failure.code())
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! `plan`: one problem, one trajectory.
+
+use super::failure::Failure;
+use super::progress::Progress;
+use super::{Outcome, interrupt, terminal};
+use crate::config::{ConfigError, Overrides, ProblemFile};
+use crate::planner::{Plan, Planner, Status};
+use crate::refine::Method;
+use crate::report::{self, OutputFolder, Provenance};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
+
+/// Plan one trajectory and write it to a folder
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Problem file
+    #[arg(value_name = "PROBLEM.toml")]
+    problem: PathBuf,
+    /// Folder to write to [default: out/<problem name>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Method, instead of the problem file's
+    #[arg(long)]
+    method: Option<MethodName>,
+    /// Tolerance on the largest error, instead of the problem file's
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+    /// Value for any key of the problem file, as TOML
+    #[arg(long, value_name = "key.path=value")]
+    set: Vec<String>,
+    /// Saved solution to start from
+    #[arg(long, value_name = "solution.json")]
+    warm_start: Option<PathBuf>,
+    /// Print the solution as one JSON document
+    #[arg(long)]
+    json: bool,
+    /// Print neither progress nor summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// A method by its name.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum MethodName {
+    /// Adaptive Radau pseudospectral method
+    #[value(name = "a-rpm")]
+    Adaptive,
+    /// Global Radau pseudospectral method
+    #[value(name = "rpm")]
+    Global,
+}
+
+impl Arguments {
+    fn overrides(&self) -> Result<Overrides, ConfigError> {
+        let mut overrides = Overrides::default();
+        for assignment in &self.set {
+            overrides.set(assignment)?;
+        }
+        if let Some(method) = self.method {
+            let name = match method {
+                MethodName::Adaptive => Method::Adaptive.name(),
+                MethodName::Global => Method::Global.name(),
+            };
+            overrides.text(&format!("--method {name}"), "mesh.method", name);
+        }
+        if let Some(tolerance) = self.tolerance {
+            overrides.number(
+                &format!("--tolerance {tolerance}"),
+                "mesh.tolerance",
+                tolerance,
+            );
+        }
+        Ok(overrides)
+    }
+}
+
+/// Plans, writes, prints.
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let file = ProblemFile::load(&arguments.problem, &arguments.overrides()?)?;
+    let warm_start = arguments.warm_start.as_deref();
+    let start = warm_start.map(report::read_warm_start).transpose()?;
+    let default = || Path::new("out").join(&file.problem.name);
+    let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
+
+    interrupt::listen();
+    let mut progress = Progress::start(&file.problem.name, arguments.quiet);
+    let plan = Planner::new().plan_with(&file.problem, start.as_ref(), &mut |event| {
+        progress.show(event)
+    });
+    progress.finish();
+    let plan = plan
+        .map_err(|error| Failure::planning(&file, warm_start, error))?
+        .verified(&file.problem);
+
+    let (json, files) = write(&file, &plan, &folder)?;
+    let summary = || report::summary(&file.problem, &plan, &files);
+    if arguments.json {
+        terminal::print(&json)?;
+    }
+    match (arguments.quiet, arguments.json) {
+        (false, false) => terminal::print(&summary())?,
+        (false, true) => terminal::warn(&summary()),
+        (true, _) if plan.status != Status::Solved => {
+            terminal::warn(&report::verdict(&file.problem, &plan));
+        }
+        (true, _) => {}
+    }
+    Ok(match plan.status {
+        Status::Solved => Outcome::Done,
+        Status::Infeasible => Outcome::Infeasible,
+        Status::NotConverged => Outcome::NotConverged,
+        Status::Interrupted => Outcome::Interrupted,
+    })
+}
+
+/// Writes the files of a plan; the text of `solution.json` and the paths are returned.
+fn write(
+    file: &ProblemFile,
+    plan: &Plan,
+    folder: &OutputFolder,
+) -> Result<(String, Vec<PathBuf>), Failure> {
+    let solution = report::solution(&file.problem.name, plan, Provenance::of(file));
+    let failure = |message: String| Failure::Format {
+        path: file.path.clone(),
+        message,
+    };
+    let json = report::to_json(&solution).map_err(|error| failure(error.to_string()))?;
+    let csv =
+        report::trajectory_csv(&solution.trajectory).map_err(|error| failure(error.to_string()))?;
+    let files = vec![
+        folder.write("solution.json", &json)?,
+        folder.write("trajectory.csv", &csv)?,
+    ];
+    Ok((json, files))
+}

@@ -1,0 +1,37 @@
+//! Problem and robot files: TOML in, a validated [`Problem`](crate::planner::Problem) out.
+//!
+//! A document is parsed with the line of every value ([`Place`]), values given on the command
+//! line are laid over it ([`Overrides`]), and one reader a table turns it into a problem. Every
+//! error is one line that names the file, the line, the key, what stands there and what was
+//! expected. docs/problem-file.md and docs/robot-file.md describe the formats.
+
+mod document;
+mod error;
+mod files;
+mod inertia;
+mod item;
+mod overrides;
+mod problem;
+mod robot;
+mod tables;
+mod values;
+
+pub use error::{ConfigError, Place};
+pub use overrides::Overrides;
+pub use problem::ProblemFile;
+pub use robot::RobotFile;
+
+use document::Value;
+use item::Section;
+
+/// The only version of the file formats so far.
+const SCHEMA: i64 = 1;
+
+/// Checks the key `schema`.
+fn schema(root: &Section<'_>) -> Result<(), ConfigError> {
+    let item = root.require("schema", "schema = 1")?;
+    match item.node.value {
+        Value::Integer(SCHEMA) => Ok(()),
+        _ => Err(item.unexpected("1, the only schema this version reads")),
+    }
+}

@@ -1,0 +1,174 @@
+//! The problem file.
+
+use super::document::{Node, quoted};
+use super::files::Files;
+use super::item::{Item, Section};
+use super::robot::{self, RobotFile};
+use super::values::Components;
+use super::{ConfigError, Overrides, Place, inertia, tables};
+use crate::dynamics::{Body, Model};
+use crate::planner::{Problem, ProblemError};
+use std::path::Path;
+
+/// A problem and the files it was read from.
+#[derive(Debug, Clone)]
+pub struct ProblemFile {
+    /// The problem, validated.
+    pub problem: Problem,
+    /// Path of the problem file, as given.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+    /// The options of the command line that were laid over it, as written.
+    pub overrides: Vec<String>,
+    /// The robot's file.
+    pub robot: RobotFile,
+    document: Node,
+}
+
+impl ProblemFile {
+    /// Reads and validates the problem file at `path`.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for the first thing found wrong in it, in the robot's file or in
+    /// `overrides`.
+    pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, ConfigError> {
+        Self::read(path, Files::Disk, overrides)
+    }
+
+    /// One of the problems shipped in `config/`, by name ("table1-relaxed").
+    ///
+    /// # Errors
+    /// [`ConfigError`] where there is none of that name.
+    pub fn shipped(name: &str) -> Result<Self, ConfigError> {
+        let path = format!("config/{name}.toml");
+        Self::read(Path::new(&path), Files::Shipped, &Overrides::default())
+    }
+
+    fn read(path: &Path, files: Files, overrides: &Overrides) -> Result<Self, ConfigError> {
+        let source = path.display().to_string();
+        let text = files.read(path).map_err(|reason| ConfigError::Unreadable {
+            place: Place {
+                source: source.as_str().into(),
+                line: None,
+            },
+            reason,
+            expected: "a problem file",
+        })?;
+        let mut document = Node::parse(&source.as_str().into(), &text)?;
+        overrides.apply(&mut document)?;
+        let (problem, robot) = read(&document, path, files)?;
+        let file = Self {
+            problem,
+            path: source,
+            text,
+            overrides: overrides.flags(),
+            robot,
+            document,
+        };
+        file.problem.validate().map_err(|error| file.blame(error))?;
+        Ok(file)
+    }
+
+    /// Where a key ("limits.joint_velocity[1]") is given, or the nearest table around it.
+    pub fn place(&self, key: &str) -> Place {
+        self.document.locate(key)
+    }
+
+    /// An error of the problem, with the place of its key.
+    pub fn blame(&self, error: ProblemError) -> ConfigError {
+        let ProblemError {
+            key,
+            found,
+            expected,
+        } = error;
+        ConfigError::Value {
+            place: self.place(&key),
+            key,
+            found,
+            expected,
+        }
+    }
+}
+
+fn read(document: &Node, path: &Path, files: Files) -> Result<(Problem, RobotFile), ConfigError> {
+    let root = Item::root(document).section(&[
+        "schema", "name", "robot", "base", "task", "limits", "cost", "mesh", "solver",
+    ])?;
+    super::schema(&root)?;
+    let name = name(&root, path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let expected = "the path of a robot file, relative to this one";
+    let (mut model, robot) = robot::read(root.require("robot", expected)?, folder, &files)?;
+    if let Some(item) = root.get("base") {
+        model = with_spacecraft(item, &model)?;
+    }
+
+    let (angles, lengths) = Problem::base_sizes(&model);
+    let names = model
+        .joints()
+        .iter()
+        .map(|joint| joint.name.clone())
+        .collect();
+    let joints = Components {
+        what: "joint",
+        names,
+    };
+    let angles = Components::angles(angles);
+    let lengths = Components::lengths(lengths);
+
+    let expected = "a table with duration, initial and final";
+    let task = tables::task(root.require("task", expected)?, &joints)?;
+    let mut problem = Problem::new(&name, model, task.duration.lower, &[], &[]);
+    problem.task = task;
+    if let Some(item) = root.get("limits") {
+        tables::limits(item, &mut problem.limits, &joints, &angles)?;
+    }
+    if let Some(item) = root.get("cost") {
+        tables::cost(item, &mut problem.cost, &joints, &angles, &lengths)?;
+    }
+    if let Some(item) = root.get("mesh") {
+        tables::mesh(item, &mut problem.mesh)?;
+    }
+    if let Some(item) = root.get("solver") {
+        tables::solver(item, &mut problem.solver)?;
+    }
+    Ok((problem, robot))
+}
+
+/// The name, which names the output folder as well; that of the file unless given.
+fn name(root: &Section<'_>, path: &Path) -> Result<String, ConfigError> {
+    let Some(item) = root.get("name") else {
+        let stem = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
+        return Ok(stem.unwrap_or_else(|| "problem".into()));
+    };
+    let name = item.text("a string")?;
+    let harmless = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+    if name.trim() != name || name.trim_matches('.').is_empty() || !name.chars().all(harmless) {
+        let expected = "letters, digits, '-', '_' and '.', for it names the output folder";
+        return Err(item.error(quoted(name), expected));
+    }
+    Ok(name.into())
+}
+
+/// `[base]`: a spacecraft rigidly attached to the robot's root link.
+fn with_spacecraft(item: &Item<'_>, model: &Model) -> Result<Model, ConfigError> {
+    let spacecraft = inertia::read(&item.section(&["mass", "com", "inertia"])?)?;
+    let base = Body {
+        name: model.base().name.clone(),
+        inertia: model.base().inertia.lumped(&spacecraft),
+    };
+    let lumped = Model::new(model.name(), base, model.joints().to_vec()).map_err(|source| {
+        ConfigError::Model {
+            place: item.node.place.clone(),
+            key: item.key.clone(),
+            source,
+        }
+    })?;
+    Ok(match model.end_effector() {
+        Some((joint, placement)) => lumped.with_end_effector(*joint, placement.clone()),
+        None => lumped,
+    })
+}

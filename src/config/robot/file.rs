@@ -1,0 +1,161 @@
+//! The robot file in TOML; docs/robot-file.md describes it.
+
+use super::description::Description;
+use crate::config::ConfigError;
+use crate::config::document::{Node, quoted};
+use crate::config::inertia;
+use crate::config::item::{Item, Section};
+use crate::config::values::joint_range;
+use crate::dynamics::{Body, Joint, JointKind, JointLimits, Placement};
+use nalgebra::{Unit, Vector3};
+use std::sync::Arc;
+
+/// Reads a robot; `source` is the name of its file in messages.
+pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigError> {
+    let document = Node::parse(source, text)?;
+    let root =
+        Item::root(&document).section(&["schema", "name", "base", "joints", "end_effector"])?;
+    crate::config::schema(&root)?;
+    let base = root.require("base", "a table with mass, com and inertia")?;
+    let mut robot = Description {
+        name: root.require("name", "a string")?.text("a string")?.into(),
+        base: body(&base.section(&BODY)?, "base")?,
+        joints: Vec::new(),
+        end_effector: None,
+    };
+    let joints = root.require("joints", "one [[joints]] table a joint")?;
+    let elements = joints.as_elements().filter(|elements| !elements.is_empty());
+    for item in elements.ok_or_else(|| joints.unexpected("one [[joints]] table a joint"))? {
+        let joint = joint(&item, &robot)?;
+        robot.joints.push(joint);
+    }
+    if let Some(item) = root.get("end_effector") {
+        let section = item.section(&["parent", "origin"])?;
+        let carrier = match section.get("parent") {
+            Some(parent) => carrier(parent, &robot)?,
+            None => Some(robot.joints.len() - 1),
+        };
+        robot.end_effector = Some((carrier, origin(section.get("origin"))?));
+    }
+    Ok(robot)
+}
+
+const BODY: [&str; 4] = ["name", "mass", "com", "inertia"];
+
+fn joint(item: &Item<'_>, robot: &Description) -> Result<Joint, ConfigError> {
+    let section = item.section(&["name", "type", "parent", "origin", "axis", "limits", "body"])?;
+    let name = section.require("name", "a string")?;
+    let name = unused(name, name.text("a string")?, robot)?;
+    let kind = section.require("type", KINDS)?;
+    let (kind, continuous) = match kind.text(KINDS)? {
+        "revolute" => (JointKind::Revolute, false),
+        "continuous" => (JointKind::Revolute, true),
+        "prismatic" => (JointKind::Prismatic, false),
+        _ => return Err(kind.unexpected(KINDS)),
+    };
+    let parent = match section.get("parent") {
+        Some(parent) => carrier(parent, robot)?,
+        None => robot.joints.len().checked_sub(1),
+    };
+    let expected = "a table with mass, com and inertia";
+    let body_item = section.require("body", expected)?;
+    let body_section = body_item.section(&BODY)?;
+    let body = body(&body_section, &format!("{name}_link"))?;
+    unused(
+        body_section.get("name").unwrap_or(body_item),
+        &body.name,
+        robot,
+    )?;
+    Ok(Joint {
+        name,
+        kind,
+        parent,
+        placement: origin(section.get("origin"))?,
+        axis: axis(section.get("axis"))?,
+        limits: limits(section.get("limits"), continuous)?,
+        body,
+    })
+}
+
+const KINDS: &str = "\"revolute\", \"continuous\" or \"prismatic\"";
+
+fn unused(item: &Item<'_>, name: &str, robot: &Description) -> Result<String, ConfigError> {
+    if name.is_empty() {
+        return Err(item.unexpected("a name that is not empty"));
+    }
+    if robot.carrier(name).is_some() {
+        return Err(item.error(format!("{name:?} is given twice"), "a name of its own"));
+    }
+    Ok(name.into())
+}
+
+fn carrier(item: &Item<'_>, robot: &Description) -> Result<Option<usize>, ConfigError> {
+    let name = item.text("the name of a body or joint")?;
+    robot.carrier(name).ok_or_else(|| {
+        item.error(
+            quoted(name),
+            format!("{}, listed before this", robot.expected_names()),
+        )
+    })
+}
+
+fn body(section: &Section<'_>, default_name: &str) -> Result<Body, ConfigError> {
+    let name = match section.get("name") {
+        Some(item) => item.text("a string")?,
+        None => default_name,
+    };
+    Ok(Body {
+        name: name.into(),
+        inertia: inertia::read(section)?,
+    })
+}
+
+fn origin(item: Option<&Item<'_>>) -> Result<Placement, ConfigError> {
+    let Some(item) = item else {
+        return Ok(Placement::identity());
+    };
+    let section = item.section(&["xyz", "rpy"])?;
+    let triple = |name, expected| {
+        section
+            .get(name)
+            .map_or(Ok([0.0; 3]), |item| item.triple(expected))
+    };
+    Ok(Placement::from_xyz_rpy(
+        triple("xyz", "an array of 3 lengths, m")?,
+        triple("rpy", "an array of 3 angles, rad")?,
+    ))
+}
+
+fn axis(item: Option<&Item<'_>>) -> Result<Unit<Vector3<f64>>, ConfigError> {
+    let Some(item) = item else {
+        return Ok(Vector3::z_axis());
+    };
+    let expected = "an array of 3 numbers that are not all zero";
+    let axis = Vector3::from(item.triple(expected)?);
+    // Scaled first, so that neither very small nor very large numbers are lost in the norm.
+    Unit::try_new(axis / axis.amax(), 0.5).ok_or_else(|| item.error("0, 0, 0", expected))
+}
+
+fn limits(item: Option<&Item<'_>>, continuous: bool) -> Result<JointLimits, ConfigError> {
+    let mut limits = JointLimits::NONE;
+    let Some(item) = item else { return Ok(limits) };
+    let section = item.section(&["position", "velocity", "effort"])?;
+    if let Some(item) = section.get("position") {
+        if continuous {
+            let found = "a limit of a continuous joint";
+            return Err(item.error(found, "none, or type = \"revolute\""));
+        }
+        limits.position = joint_range(item)?;
+    }
+    for (name, limit) in [
+        ("velocity", &mut limits.velocity),
+        ("effort", &mut limits.effort),
+    ] {
+        if let Some(item) = section.get(name) {
+            let most = item.as_number().filter(|number| *number >= 0.0);
+            *limit =
+                most.ok_or_else(|| item.unexpected("a number of zero or above (inf for none)"))?;
+        }
+    }
+    Ok(limits)
+}

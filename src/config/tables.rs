@@ -1,0 +1,227 @@
+//! The tables of a problem file, each read over the defaults that stand in the problem.
+
+use super::ConfigError;
+use super::document::{Value, quoted};
+use super::item::Item;
+use super::values::Components;
+use crate::nlp::{self, OptionValue};
+use crate::ocp::Interval;
+use crate::planner::{Cost, Limits, Task};
+use crate::refine::{self, Method};
+
+/// Most segments and mesh iterations: beyond them a typing error is more likely than a wish.
+const MOST: usize = 100_000;
+/// Most LGR points in one segment.
+const MOST_POINTS: usize = 1_000;
+
+/// `[task]`.
+pub(super) fn task(item: &Item<'_>, joints: &Components) -> Result<Task, ConfigError> {
+    let section = item.section(&["duration", "initial", "final"])?;
+    let expected = "a table with joints, the joint positions at the start";
+    let initial = section
+        .require("initial", expected)?
+        .section(&["joints", "rates"])?;
+    let expected = "a table with joints, the joint positions at the end";
+    let goal = section.require("final", expected)?.section(&["joints"])?;
+    let expected = format!("joint positions, one a joint: {}", joints.names.join(", "));
+    Ok(Task {
+        duration: duration(section.require("duration", DURATION)?)?,
+        initial_joints: joints.vector(initial.require("joints", &expected)?)?,
+        initial_rates: match initial.get("rates") {
+            Some(rates) => joints.vector(rates)?,
+            None => vec![0.0; joints.names.len()],
+        },
+        final_joints: joints.vector(goal.require("joints", &expected)?)?,
+    })
+}
+
+const DURATION: &str = "a finite duration above zero, s, or { min = …, max = … }";
+
+fn duration(item: &Item<'_>) -> Result<Interval, ConfigError> {
+    if item.as_entries().is_none() {
+        return item.positive(DURATION).map(Interval::fixed);
+    }
+    let section = item.section(&["min", "max"])?;
+    let end = |name| {
+        let expected = "a finite duration above zero, s";
+        section.require(name, expected)?.positive(expected)
+    };
+    let (min, max) = (end("min")?, end("max")?);
+    if min > max {
+        return Err(item.error(format!("min {min} above max {max}"), "min not above max"));
+    }
+    Ok(Interval::new(min, max))
+}
+
+/// `[limits]`.
+pub(super) fn limits(
+    item: &Item<'_>,
+    limits: &mut Limits,
+    joints: &Components,
+    angles: &Components,
+) -> Result<(), ConfigError> {
+    let mut keys = [
+        ("joint_position", &mut limits.joint_position, joints),
+        ("joint_velocity", &mut limits.joint_velocity, joints),
+        ("control", &mut limits.control, joints),
+        ("torque", &mut limits.torque, joints),
+        ("base_attitude", &mut limits.base_attitude, angles),
+        ("base_rate", &mut limits.base_rate, angles),
+        (
+            "final_base_attitude",
+            &mut limits.final_base_attitude,
+            angles,
+        ),
+    ];
+    let section = item.section(&keys.each_ref().map(|(name, ..)| *name))?;
+    for (name, bounds, components) in &mut keys {
+        if let Some(item) = section.get(name) {
+            **bounds = components.bounds(item, bounds)?;
+        }
+    }
+    Ok(())
+}
+
+/// `[cost]`.
+pub(super) fn cost(
+    item: &Item<'_>,
+    cost: &mut Cost,
+    joints: &Components,
+    angles: &Components,
+    lengths: &Components,
+) -> Result<(), ConfigError> {
+    const MATRIX: &str = "rate_matrix";
+    let mut keys = [
+        ("final_base_attitude", &mut cost.final_base_attitude, angles),
+        (
+            "final_base_position",
+            &mut cost.final_base_position,
+            lengths,
+        ),
+        ("base_rate", &mut cost.base_rate, angles),
+        ("joint_rate", &mut cost.joint_rate, joints),
+        ("control", &mut cost.control, joints),
+        ("torque", &mut cost.torque, joints),
+    ];
+    let mut known = keys.each_ref().map(|(name, ..)| *name).to_vec();
+    known.push(MATRIX);
+    let section = item.section(&known)?;
+    for (name, weights, components) in &mut keys {
+        if let Some(item) = section.get(name) {
+            **weights = components.weights(item)?;
+        }
+    }
+    if let Some(item) = section.get(MATRIX) {
+        cost.rate_matrix = Some(matrix(item)?);
+    }
+    Ok(())
+}
+
+/// Rows of numbers; the problem itself checks their lengths.
+fn matrix(item: &Item<'_>) -> Result<Vec<Vec<f64>>, ConfigError> {
+    let expected = "an array of rows, one a base angle and joint, each an array of numbers";
+    let rows = |item: &Item<'_>| {
+        let row = item
+            .as_elements()
+            .ok_or_else(|| item.unexpected(expected))?;
+        row.iter()
+            .map(|element| element.number("a finite number"))
+            .collect()
+    };
+    item.as_elements()
+        .ok_or_else(|| item.unexpected(expected))?
+        .iter()
+        .map(rows)
+        .collect()
+}
+
+/// `[mesh]`.
+pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), ConfigError> {
+    let section = item.section(&[
+        "method",
+        "segments",
+        "points",
+        "tolerance",
+        "max_iterations",
+        "max_points",
+        "lambda1",
+        "lambda2",
+        "r_max",
+        "error",
+        "max_global_points",
+        "global_points",
+    ])?;
+    if let Some(item) = section.get("method") {
+        let expected = "\"a-rpm\" or \"rpm\"";
+        let name = item.text(expected)?;
+        let methods = [Method::Adaptive, Method::Global];
+        let found = methods.into_iter().find(|method| method.name() == name);
+        mesh.method = found.ok_or_else(|| item.error(quoted(name), expected))?;
+    }
+    for (name, value, most) in [
+        ("segments", &mut mesh.segments, MOST),
+        ("points", &mut mesh.points, MOST_POINTS),
+        ("max_iterations", &mut mesh.max_iterations, MOST),
+        ("max_points", &mut mesh.max_points, MOST_POINTS),
+        (
+            "max_global_points",
+            &mut mesh.max_global_points,
+            MOST_POINTS,
+        ),
+        ("global_points", &mut mesh.global_points, MOST_POINTS),
+    ] {
+        if let Some(item) = section.get(name) {
+            *value = item.count(most)?;
+        }
+    }
+    for (name, value) in [
+        ("tolerance", &mut mesh.tolerance),
+        ("lambda1", &mut mesh.lambda1),
+        ("lambda2", &mut mesh.lambda2),
+        ("r_max", &mut mesh.r_max),
+    ] {
+        if let Some(item) = section.get(name) {
+            *value = item.positive("a finite number above zero")?;
+        }
+    }
+    if let Some(item) = section.get("error") {
+        let expected = "\"paper\", the error estimate (28)";
+        if item.text(expected)? != "paper" {
+            return Err(item.unexpected(expected));
+        }
+    }
+    Ok(())
+}
+
+/// `[solver]`.
+pub(super) fn solver(item: &Item<'_>, solver: &mut nlp::Settings) -> Result<(), ConfigError> {
+    let section = item.section(&["tolerance", "max_iterations", "linear_solver", "options"])?;
+    if let Some(item) = section.get("tolerance") {
+        solver.tolerance = item.positive("a finite number above zero")?;
+    }
+    if let Some(item) = section.get("max_iterations") {
+        solver.max_iterations = item.count(i32::MAX as usize)? as u32;
+    }
+    if let Some(item) = section.get("linear_solver") {
+        match item.text("\"auto\", or Ipopt's name of a linear solver")? {
+            "auto" => {}
+            name => solver.linear_solver = name.into(),
+        }
+    }
+    if let Some(item) = section.get("options") {
+        for item in item.entries("a table of Ipopt's options by name")? {
+            let value = match &item.node.value {
+                Value::Integer(number) => i32::try_from(*number).ok().map(OptionValue::Integer),
+                Value::Float(number) if number.is_finite() => Some(OptionValue::Real(*number)),
+                Value::Text(text) => Some(OptionValue::Text(text.clone())),
+                Value::Boolean(yes) => {
+                    Some(OptionValue::Text(if *yes { "yes" } else { "no" }.into()))
+                }
+                _ => None,
+            };
+            let value = value.ok_or_else(|| item.unexpected("a finite number or a string"))?;
+            solver.options.push((item.name.into(), value));
+        }
+    }
+    Ok(())
+}

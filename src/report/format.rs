@@ -1,0 +1,43 @@
+//! Numbers as a person reads them.
+
+use std::time::Duration;
+
+/// An angle (rad) in degrees, three decimals.
+pub fn degrees(angle: f64) -> String {
+    format!("{:.3}°", unsigned_zero(angle.to_degrees(), 3))
+}
+
+/// A length (m) in centimetres, three decimals.
+pub fn centimetres(length: f64) -> String {
+    format!("{:.3} cm", unsigned_zero(100.0 * length, 3))
+}
+
+/// A time in ms or s, three digits.
+pub fn seconds(time: Duration) -> String {
+    let s = time.as_secs_f64();
+    match s {
+        s if s < 0.1 => format!("{:.1} ms", 1e3 * s),
+        s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
+        s if s < 10.0 => format!("{s:.2} s"),
+        s => format!("{s:.1} s"),
+    }
+}
+
+/// Keeps "-0.000" from being printed.
+fn unsigned_zero(value: f64, decimals: i32) -> f64 {
+    if value.abs() < 0.5 * 10f64.powi(-decimals) {
+        0.0
+    } else {
+        value
+    }
+}
+
+/// Several values in brackets, or the one alone.
+pub(super) fn list(values: &[f64], show: fn(f64) -> String) -> String {
+    let shown: Vec<String> = values.iter().map(|value| show(*value)).collect();
+    if shown.len() == 1 {
+        shown[0].clone()
+    } else {
+        format!("({})", shown.join(", "))
+    }
+}

@@ -1,0 +1,33 @@
+//! What planning leaves behind: `solution.json`, `trajectory.csv` and the summary a person reads.
+//!
+//! Files hold SI units and radians with every digit of a double, and are written beside their
+//! place and then renamed: a reader finds the whole file or the one before. docs/solution-file.md
+//! describes the format.
+
+mod build;
+mod convert;
+mod csv;
+mod format;
+mod json;
+mod lines;
+mod number;
+mod output;
+mod provenance;
+mod solution;
+mod summary;
+mod warm_start;
+
+pub use build::Build;
+pub use convert::solution;
+pub use csv::trajectory_csv;
+pub use format::{centimetres, degrees, seconds};
+pub use json::to_json;
+pub use lines::Lines;
+pub use output::{OutputError, OutputFolder};
+pub use provenance::Provenance;
+pub use solution::{
+    Diagnosis, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing, Trajectory,
+    Verification,
+};
+pub use summary::{summary, verdict};
+pub use warm_start::{WarmStartError, read_warm_start};

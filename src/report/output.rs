@@ -1,0 +1,78 @@
+//! The output folder: known to be writable before anything is solved, files written whole.
+
+use std::fs::Permissions;
+use std::io::{self, Write};
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+
+/// A folder or file that cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The folder.
+    #[error(
+        "{}: the output folder cannot be written: {source}; expected a folder that can, see --out",
+        path.display()
+    )]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A file in it.
+    #[error("{}: cannot be written: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// A folder that a file could be created in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputFolder {
+    path: PathBuf,
+}
+
+impl OutputFolder {
+    /// Creates the folder where it is missing, and tries it.
+    ///
+    /// # Errors
+    /// [`OutputError::Folder`] where no file can be created in it.
+    pub fn create(path: &Path) -> Result<Self, OutputError> {
+        let try_out = || {
+            std::fs::create_dir_all(path)?;
+            tempfile::tempfile_in(path)
+        };
+        match try_out() {
+            Ok(_) => Ok(Self { path: path.into() }),
+            Err(source) => Err(OutputError::Folder {
+                path: path.into(),
+                source,
+            }),
+        }
+    }
+
+    /// Writes a file beside its place, then renames it; its path is returned.
+    ///
+    /// # Errors
+    /// [`OutputError::File`]; the file is then as it was before.
+    pub fn write(&self, name: &str, contents: &str) -> Result<PathBuf, OutputError> {
+        let path = self.path.join(name);
+        let write = || {
+            // A temporary file is the owner's alone; a result is as open as any new file.
+            let mut file = tempfile::Builder::new()
+                .permissions(Permissions::from_mode(0o666))
+                .tempfile_in(&self.path)?;
+            file.write_all(contents.as_bytes())?;
+            file.persist(&path)?;
+            Ok(())
+        };
+        write().map_err(|source| OutputError::File {
+            path: path.clone(),
+            source,
+        })?;
+        Ok(path)
+    }
+}

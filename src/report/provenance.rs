@@ -1,0 +1,66 @@
+//! What was solved by what, enough to do it again.
+
+use super::Build;
+use crate::config::ProblemFile;
+use crate::nlp::ipopt;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// What was solved by what.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// Version of this program with its git revision.
+    pub version: String,
+    /// Version of Ipopt.
+    pub ipopt: String,
+    /// Linear solver inside Ipopt.
+    pub linear_solver: String,
+    /// SHA-256 of the robot's file, hexadecimal.
+    pub robot_sha256: String,
+    /// The problem.
+    pub problem: ProblemSource,
+    /// The robot.
+    pub robot: TextFile,
+}
+
+/// The problem file and what was laid over it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ProblemSource {
+    /// Path, as given.
+    pub path: String,
+    /// The whole file.
+    pub text: String,
+    /// Options of the command line that changed it, in order.
+    pub overrides: Vec<String>,
+}
+
+/// A file by its path and text.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TextFile {
+    /// Path, as found from the problem file.
+    pub path: String,
+    /// The whole file.
+    pub text: String,
+}
+
+impl Provenance {
+    /// Of a plan for the problem in `file`.
+    pub fn of(file: &ProblemFile) -> Self {
+        let digest = Sha256::digest(file.robot.text.as_bytes());
+        Self {
+            version: Build::VERSION.into(),
+            ipopt: ipopt::version().into(),
+            linear_solver: file.problem.solver.linear_solver.clone(),
+            robot_sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            problem: ProblemSource {
+                path: file.path.clone(),
+                text: file.text.clone(),
+                overrides: file.overrides.clone(),
+            },
+            robot: TextFile {
+                path: file.robot.path.clone(),
+                text: file.robot.text.clone(),
+            },
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! `solution.json`, name by name.
+
+use super::{Provenance, number};
+use serde::{Deserialize, Serialize};
+
+/// The whole file. SI units and radians; numbers that are not finite are null.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Solution {
+    /// Version of the format, 1.
+    pub schema: u32,
+    /// Name of the problem.
+    pub name: String,
+    /// "solved", "infeasible", "not_converged" or "interrupted".
+    pub status: String,
+    /// "a-rpm" or "rpm".
+    pub method: String,
+    /// Cost J of (14).
+    #[serde(with = "number")]
+    pub objective: f64,
+    /// Tolerance asked for.
+    #[serde(with = "number")]
+    pub tolerance: f64,
+    /// Largest error (28) on the final mesh.
+    #[serde(with = "number")]
+    pub max_error: f64,
+    /// Collocation points of the final mesh.
+    pub points: usize,
+    /// Segments of the final mesh.
+    pub segments: usize,
+    /// One a mesh iteration.
+    pub iterations: Vec<Iteration>,
+    /// The final mesh.
+    pub mesh: Mesh,
+    /// The planned motion at the nodes.
+    pub trajectory: Trajectory,
+    /// Figures a person asks for first.
+    pub metrics: Metrics,
+    /// Independent re-integration; null where there was none.
+    pub verification: Option<Verification>,
+    /// Why there is no plan; null unless infeasible.
+    pub diagnosis: Option<Diagnosis>,
+    /// Where the time went.
+    pub timing: Timing,
+    /// What was solved by what.
+    pub provenance: Provenance,
+    /// The last programme's primal and dual values, for `--warm-start`.
+    #[serde(default)]
+    pub iterate: Option<Iterate>,
+}
+
+/// One mesh iteration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Iteration {
+    /// Collocation points.
+    pub points: usize,
+    /// Segments.
+    pub segments: usize,
+    /// Largest error (28).
+    #[serde(with = "number")]
+    pub max_error: f64,
+    /// Largest relative error of the states by quadrature on a finer LGR set.
+    #[serde(with = "number")]
+    pub quadrature_error: f64,
+    /// Objective (25).
+    #[serde(with = "number")]
+    pub objective: f64,
+    /// Iterations of the solver.
+    pub nlp_iterations: u32,
+    /// How the solver ended, in words.
+    pub nlp_status: String,
+    /// Wall time, s.
+    #[serde(with = "number")]
+    pub seconds: f64,
+}
+
+/// A mesh.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Mesh {
+    /// Fractions of the duration from 0 to 1; length segments + 1.
+    pub breakpoints: Vec<f64>,
+    /// LGR points of each segment; length segments.
+    pub points_per_segment: Vec<usize>,
+}
+
+/// The planned motion, one row a time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trajectory {
+    /// Times of the nodes, s; the last is t_f.
+    pub t: Vec<f64>,
+    /// Base attitude, rad.
+    pub base_attitude: Vec<Vec<f64>>,
+    /// Base position relative to the system's mass centre, m.
+    pub base_position: Vec<Vec<f64>>,
+    /// Rates of the base attitude angles, rad/s.
+    pub base_rate: Vec<Vec<f64>>,
+    /// Joint positions, rad or m.
+    pub joint_position: Vec<Vec<f64>>,
+    /// Joint rates, rad/s or m/s.
+    pub joint_velocity: Vec<Vec<f64>>,
+    /// Controls u = H⁻¹τ, rad/s² or m/s².
+    pub control: Vec<Vec<f64>>,
+    /// Joint torques, N·m or N.
+    pub joint_torque: Vec<Vec<f64>>,
+}
+
+/// Figures a person asks for first.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Metrics {
+    /// Largest magnitude of any base attitude angle, rad.
+    #[serde(with = "number")]
+    pub max_base_attitude: f64,
+    /// The same at t_f, rad.
+    #[serde(with = "number")]
+    pub final_base_attitude: f64,
+    /// Largest distance of the base from where it started, m.
+    #[serde(with = "number")]
+    pub max_base_displacement: f64,
+    /// The same at t_f, m.
+    #[serde(with = "number")]
+    pub final_base_displacement: f64,
+    /// Largest magnitude of any joint rate, rad/s or m/s.
+    #[serde(with = "number")]
+    pub peak_joint_velocity: f64,
+    /// Largest magnitude of any joint torque, N·m or N.
+    #[serde(with = "number")]
+    pub peak_joint_torque: f64,
+}
+
+/// Largest differences between the plan and its independent re-integration.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Verification {
+    /// Base attitude, rad.
+    #[serde(with = "number")]
+    pub max_base_attitude_drift: f64,
+    /// Base position, m.
+    #[serde(with = "number")]
+    pub max_base_position_drift: f64,
+    /// Joint positions, rad or m.
+    #[serde(with = "number")]
+    pub max_joint_drift: f64,
+    /// Base attitude where the joints follow the planned path, rad.
+    #[serde(with = "number")]
+    pub replay_base_attitude_drift: f64,
+    /// Base position where the joints follow the planned path, m.
+    #[serde(with = "number")]
+    pub replay_base_position_drift: f64,
+    /// Largest linear momentum, kg m/s.
+    #[serde(with = "number")]
+    pub max_linear_momentum: f64,
+    /// Largest angular momentum about the system's mass centre, kg m²/s.
+    #[serde(with = "number")]
+    pub max_angular_momentum: f64,
+    /// Largest gap between kinetic energy and the joints' work, J.
+    #[serde(with = "number")]
+    pub max_energy_gap: f64,
+    /// Steps of the integrator.
+    pub steps: usize,
+}
+
+/// Why a problem is infeasible.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Diagnosis {
+    /// One sentence for a person, in degrees and centimetres.
+    pub summary: String,
+    /// The limits that cannot hold, relaxed together.
+    pub limits: Vec<LimitFinding>,
+    /// Starts tried.
+    pub starts: usize,
+    /// Starts that ended at a feasible relaxation.
+    pub feasible_starts: usize,
+}
+
+/// One limit that cannot hold; bounds are [lower, upper], null where there is none.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LimitFinding {
+    /// Key in the problem file.
+    pub key: String,
+    /// The component it is about.
+    pub component: String,
+    /// The bound as given.
+    pub bound: [Option<f64>; 2],
+    /// How much it must give way at least.
+    #[serde(with = "number")]
+    pub excess: f64,
+    /// The smallest bound that was found to work.
+    pub smallest_bound: [Option<f64>; 2],
+}
+
+/// Where the time went, s.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// Everything outside the solver.
+    #[serde(with = "number")]
+    pub setup: f64,
+    /// Evaluation callbacks.
+    #[serde(with = "number")]
+    pub derivatives: f64,
+    /// Linear solver inside Ipopt.
+    #[serde(with = "number")]
+    pub linear_solver: f64,
+    /// The rest of Ipopt.
+    #[serde(with = "number")]
+    pub ipopt_other: f64,
+    /// All together.
+    #[serde(with = "number")]
+    pub total: f64,
+}
+
+/// Primal and dual values of the last programme, in its own order and scaling.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Iterate {
+    /// Variables.
+    pub x: Vec<f64>,
+    /// Constraint multipliers.
+    pub multipliers: Vec<f64>,
+    /// Multipliers of the lower bounds.
+    pub lower_multipliers: Vec<f64>,
+    /// Multipliers of the upper bounds.
+    pub upper_multipliers: Vec<f64>,
+}

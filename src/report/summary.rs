@@ -1,0 +1,202 @@
+//! What a roboticist wants to know, in degrees and centimetres.
+
+use super::format::{centimetres, degrees, list, seconds};
+use super::lines::Lines;
+use crate::dynamics::{JointKind, Model};
+use crate::planner::{Plan, Problem, Status};
+use comfy_table::{CellAlignment, Table, presets};
+use std::path::PathBuf;
+
+/// The summary of `plan`, some thirty lines; `files` are those written.
+pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
+    let mut lines = Lines::default();
+    let mesh = &plan.discretization.mesh;
+    lines.add("cost J", format!("{:.9}", plan.objective));
+    let reached = if plan.max_error <= plan.tolerance {
+        "within"
+    } else {
+        "above"
+    };
+    lines.add(
+        "largest error",
+        format!(
+            "{:.3e}, {reached} the tolerance {:e}",
+            plan.max_error, plan.tolerance
+        ),
+    );
+    lines.add(
+        "mesh",
+        format!("{} segments, {} points", mesh.segments(), mesh.points()),
+    );
+    if !problem.task.duration.is_fixed() {
+        lines.add("duration", format!("{:.6} s", plan.discretization.duration));
+    }
+    motion(&mut lines, &problem.robot, plan);
+    if let Some(check) = &plan.verification {
+        lines.add(
+            "re-integrated",
+            format!(
+                "base within {:.1e}° and {:.1e} cm, joints within {:.1e}°; momentum below {:.1e} kg m²/s",
+                check.max_base_attitude_drift.to_degrees(),
+                100.0 * check.max_base_position_drift,
+                check.max_joint_drift.to_degrees(),
+                check.max_angular_momentum
+            ),
+        );
+    }
+    let time = &plan.timing;
+    lines.add(
+        "time",
+        format!(
+            "{}: derivatives {}, linear solver {}, rest of Ipopt {}, set-up {}",
+            seconds(time.total),
+            seconds(time.derivatives),
+            seconds(time.linear_solver),
+            seconds(time.ipopt_other),
+            seconds(time.setup)
+        ),
+    );
+    for (i, file) in files.iter().enumerate() {
+        lines.add(
+            if i == 0 { "written" } else { "" },
+            file.display().to_string(),
+        );
+    }
+
+    format!(
+        "{}\n\n{}\n{}",
+        verdict(problem, plan),
+        iterations(plan),
+        lines.finish()
+    )
+}
+
+/// The status in one line, with the diagnosis where there is one.
+pub fn verdict(problem: &Problem, plan: &Plan) -> String {
+    format!(
+        "{}: {} ({})",
+        problem.name,
+        status(plan),
+        plan.method.name()
+    )
+}
+
+fn status(plan: &Plan) -> String {
+    match (plan.status, &plan.diagnosis) {
+        (Status::Solved, _) => "solved".into(),
+        (Status::Infeasible, Some(diagnosis)) => format!("infeasible: {}", diagnosis.summary),
+        (Status::Infeasible, None) => "infeasible".into(),
+        (Status::NotConverged, _) => {
+            let why = match plan.iterations.last() {
+                Some(last) if !last.nlp_status.is_solved() => last.nlp_status.describe(),
+                _ => "the tolerance is not reached",
+            };
+            format!("NOT converged, {why}; this is the best trajectory found")
+        }
+        (Status::Interrupted, _) => "INTERRUPTED; this is the best trajectory until then".into(),
+    }
+}
+
+fn motion(lines: &mut Lines, robot: &Model, plan: &Plan) {
+    let found = &plan.metrics;
+    let last = |rows: &[Vec<f64>]| rows.last().cloned().unwrap_or_default();
+    let attitude = last(&plan.trajectory.base_attitude);
+    lines.add(
+        "base attitude",
+        format!(
+            "largest {}, final {}",
+            degrees(found.max_base_attitude),
+            list(&attitude, degrees)
+        ),
+    );
+    let position = last(&plan.trajectory.base_position);
+    let start = plan
+        .trajectory
+        .base_position
+        .first()
+        .cloned()
+        .unwrap_or_default();
+    let moved: Vec<f64> = position.iter().zip(&start).map(|(a, b)| a - b).collect();
+    lines.add(
+        "base displacement",
+        format!(
+            "largest {}, final {} {}",
+            centimetres(found.max_base_displacement),
+            centimetres(found.final_base_displacement),
+            list(&moved, centimetres)
+        ),
+    );
+    let joints = |kind| Peaks::of(robot, plan, kind);
+    if let Some(Peaks { rate, effort }) = joints(JointKind::Revolute) {
+        lines.add(
+            "joints",
+            format!("at most {}/s and {effort:.4} N·m", degrees(rate)),
+        );
+    }
+    if let Some(Peaks { rate, effort }) = joints(JointKind::Prismatic) {
+        lines.add(
+            "sliding joints",
+            format!("at most {}/s and {effort:.4} N", centimetres(rate)),
+        );
+    }
+}
+
+/// Largest magnitudes over all joints of a kind, which share their units.
+struct Peaks {
+    rate: f64,
+    effort: f64,
+}
+
+impl Peaks {
+    fn of(robot: &Model, plan: &Plan, kind: JointKind) -> Option<Self> {
+        let joints: Vec<usize> = (0..robot.joint_count())
+            .filter(|&joint| robot.joints()[joint].kind == kind)
+            .collect();
+        let peak = |rows: &[Vec<f64>]| {
+            let values = rows
+                .iter()
+                .flat_map(|row| joints.iter().filter_map(|&j| row.get(j)));
+            values.fold(0.0, |most: f64, value| most.max(value.abs()))
+        };
+        (!joints.is_empty()).then(|| Self {
+            rate: peak(&plan.trajectory.joint_velocity),
+            effort: peak(&plan.trajectory.joint_torque),
+        })
+    }
+}
+
+/// One row a mesh iteration.
+fn iterations(plan: &Plan) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_header([
+        "mesh",
+        "segments",
+        "points",
+        "largest error",
+        "cost J",
+        "Ipopt",
+        "time",
+    ]);
+    for (i, record) in plan.iterations.iter().enumerate() {
+        table.add_row([
+            (i + 1).to_string(),
+            record.segments.to_string(),
+            record.points.to_string(),
+            format!("{:.3e}", record.max_error),
+            format!("{:.9}", record.objective),
+            format!(
+                "{} iterations, {}",
+                record.nlp_iterations,
+                record.nlp_status.describe()
+            ),
+            seconds(record.time),
+        ]);
+    }
+    for column in [0, 1, 2, 3, 4, 6] {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    let indented = |line: &str| format!(" {}\n", line.trim_end());
+    table.to_string().lines().map(indented).collect()
+}

@@ -1,0 +1,412 @@
+//! The commands: what they print, where, and how they end.
+
+mod program;
+
+use program::{Folder, PROBLEM};
+use serde_json::Value;
+
+#[test]
+fn help_names_every_command() {
+    let run = Folder::new(PROBLEM).run(&["--help"]);
+    assert_eq!(run.code, 0);
+    for command in ["plan", "check", "table2", "doctor"] {
+        assert!(
+            run.stdout
+                .lines()
+                .any(|line| line.trim_start().starts_with(command)),
+            "{command}"
+        );
+    }
+}
+
+#[test]
+fn check_prints_what_was_understood() {
+    let run = Folder::new(PROBLEM).run(&["check", "case.toml"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    for expected in [
+        "case.toml: valid",
+        "planar",
+        "3: base 15.2 kg, upper_arm 1.7 kg, forearm 1.2 kg",
+        "18.1 kg",
+        "±85.9437°",
+        "shoulder ±5 rad/s², elbow ±4 rad/s²",
+        "straight-line base motion: ",
+    ] {
+        assert!(
+            run.stdout.contains(expected),
+            "{expected} in\n{}",
+            run.stdout
+        );
+    }
+}
+
+#[test]
+fn straight_line_motion_of_the_published_case() {
+    let folder =
+        Folder::new(&PROBLEM.replace("[0.5, 1.0]", "[0.5235987755982988, 1.0471975511965976]"));
+    let run = folder.run(&["check", "case.toml"]);
+    let expected = "straight-line base motion: -36.64882°, (1.475023, 0.414488) cm\n";
+    assert!(run.stdout.ends_with(expected), "{}", run.stdout);
+}
+
+#[test]
+fn straight_line_motion_of_an_arm_in_space() {
+    let folder = Folder::new(include_str!("data/chaser.toml"));
+    folder.write("chaser-7dof.toml", include_str!("data/chaser-7dof.toml"));
+    let run = folder.run(&["check", "case.toml"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    assert!(run.stdout.contains("spatial"), "{}", run.stdout);
+    let line = run.stdout.lines().last().unwrap();
+    let numbers: Vec<f64> = line
+        .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    // As three other tools have it, degrees and centimetres.
+    let expected = [-0.8869, 8.2104, 1.3218, -1.6188, 0.4726, -2.9121];
+    assert_eq!(numbers.len(), expected.len(), "{line}");
+    for (found, expected) in numbers.iter().zip(expected) {
+        assert!((found - expected).abs() < 6e-5, "{line}");
+    }
+}
+
+#[test]
+fn plan_writes_solution_and_trajectory() {
+    let folder = Folder::new(PROBLEM);
+    let run = folder.run(&["plan", "case.toml", "--out", "a/b"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{}", run.stdout);
+    assert!(
+        run.stdout.starts_with("case: solved (a-rpm)\n"),
+        "{}",
+        run.stdout
+    );
+
+    let solution: Value = serde_json::from_str(&folder.read("a/b/solution.json")).unwrap();
+    for key in [
+        "schema",
+        "name",
+        "status",
+        "method",
+        "objective",
+        "tolerance",
+        "max_error",
+        "points",
+        "segments",
+        "iterations",
+        "mesh",
+        "trajectory",
+        "metrics",
+        "verification",
+        "diagnosis",
+        "timing",
+        "provenance",
+    ] {
+        assert!(solution.get(key).is_some(), "{key}");
+    }
+    assert_eq!(solution["status"], "solved");
+    assert!(
+        solution["verification"]["max_base_attitude_drift"]
+            .as_f64()
+            .unwrap()
+            < 1e-3
+    );
+    assert!(solution["max_error"].as_f64().unwrap() <= 1e-3);
+    assert_eq!(solution["provenance"]["problem"]["text"], PROBLEM);
+    let points = solution["points"].as_u64().unwrap() as usize;
+    let trajectory = solution["trajectory"].as_object().unwrap();
+    assert_eq!(trajectory.len(), 8);
+    for rows in trajectory.values() {
+        assert_eq!(rows.as_array().unwrap().len(), points + 1);
+    }
+    let t = &trajectory["t"];
+    assert_eq!(t[points], 20.0);
+
+    let csv = folder.read("a/b/trajectory.csv");
+    let mut lines = csv.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "t,eta_1,zeta_1,zeta_2,th_1,th_2,dth_1,dth_2,u_1,u_2,tau_1,tau_2,deta_1"
+    );
+    assert_eq!(lines.clone().count(), points + 1);
+    for (k, line) in lines.enumerate() {
+        let values: Vec<f64> = line
+            .split(',')
+            .map(|value| value.parse().unwrap())
+            .collect();
+        assert_eq!(values.len(), 13);
+        assert_eq!(values[0], t[k].as_f64().unwrap());
+        assert_eq!(
+            values[4],
+            trajectory["joint_position"][k][0].as_f64().unwrap()
+        );
+    }
+}
+
+#[test]
+fn only_whole_files_are_left_in_the_default_folder() {
+    let folder = Folder::new(PROBLEM);
+    for _ in 0..2 {
+        assert_eq!(folder.run(&["plan", "case.toml", "--quiet"]).code, 0);
+        let mut names: Vec<_> = std::fs::read_dir(folder.path().join("out/case"))
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        assert_eq!(names, ["solution.json", "trajectory.csv"]);
+    }
+}
+
+#[test]
+fn json_is_one_document_and_nothing_else() {
+    let folder = Folder::new(PROBLEM);
+    let run = folder.run(&["plan", "case.toml", "--out", "o", "--json"]);
+    assert_eq!(run.code, 0);
+    let document: Value = serde_json::from_str(&run.stdout).expect("one JSON document");
+    assert_eq!(document["name"], "case");
+    assert_eq!(run.stdout, folder.read("o/solution.json"));
+    assert!(run.stderr.starts_with("case: solved"), "{}", run.stderr);
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let run = Folder::new(PROBLEM).run(&["plan", "case.toml", "--quiet"]);
+    assert_eq!(
+        (run.code, run.stdout.as_str(), run.stderr.as_str()),
+        (0, "", "")
+    );
+}
+
+#[test]
+fn values_of_the_command_line_go_first() {
+    let folder = Folder::new(PROBLEM);
+    let arguments = [
+        "plan",
+        "case.toml",
+        "--out",
+        "o",
+        "--json",
+        "--quiet",
+        "--method",
+        "rpm",
+        "--tolerance",
+        "2e-2",
+        "--set",
+        "name=other",
+        "--set",
+        "task.final.joints={shoulder=0.25,elbow=0.5}",
+    ];
+    let run = folder.run(&arguments);
+    assert_eq!(run.code, 0, "{run:?}");
+    let document: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(document["name"], "other");
+    assert_eq!(document["method"], "rpm");
+    assert_eq!(document["segments"], 1);
+    assert_eq!(document["tolerance"], 2e-2);
+    let positions = document["trajectory"]["joint_position"].as_array().unwrap();
+    let last = positions.last().unwrap();
+    assert!((last[0].as_f64().unwrap() - 0.25).abs() < 1e-7);
+    assert_eq!(
+        document["provenance"]["problem"]["overrides"],
+        serde_json::json!([
+            "--set name=other",
+            "--set task.final.joints={shoulder=0.25,elbow=0.5}",
+            "--method rpm",
+            "--tolerance 0.02"
+        ])
+    );
+}
+
+#[test]
+fn limits_are_understood_in_every_form() {
+    let folder = Folder::new(PROBLEM);
+    for (form, expected) in [
+        ("2.0", "±2 rad/s²"),
+        ("[5, 4]", "shoulder ±5 rad/s², elbow ±4 rad/s²"),
+        ("[4, 5]", "shoulder ±4 rad/s², elbow ±5 rad/s²"),
+        ("[-1, 2]", "-1 rad/s² to 2 rad/s²"),
+        ("[0, 2]", "0 rad/s² to 2 rad/s²"),
+        (
+            "[[-1, 2], 3]",
+            "shoulder -1 rad/s² to 2 rad/s², elbow ±3 rad/s²",
+        ),
+        (
+            "{ elbow = [-1, inf] }",
+            "shoulder none, elbow from -1 rad/s²",
+        ),
+        ("inf", "none"),
+    ] {
+        folder.write("case.toml", &PROBLEM.replace("[5.0, 4.0]", form));
+        let run = folder.run(&["check", "case.toml"]);
+        assert_eq!(run.code, 0, "{run:?}");
+        let line = run
+            .stdout
+            .lines()
+            .find(|line| line.contains(" control "))
+            .unwrap();
+        let value = line.trim_start().trim_start_matches("control").trim();
+        assert_eq!(value, expected, "{form}");
+    }
+}
+
+#[test]
+fn a_locked_joint_is_left_out() {
+    let robot = "{ file = \"robot.toml\", lock = { elbow = 0.3 }, end_effector = \"forearm\" }";
+    let problem = PROBLEM
+        .replace("\"robot.toml\"", robot)
+        .replace("[0.0, 0.0]", "[0.0]")
+        .replace("[0.5, 1.0]", "{ shoulder = 0.5 }")
+        .replace("[5.0, 4.0]", "5.0");
+    let run = Folder::new(&problem).run(&["check", "case.toml"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    assert!(
+        run.stdout.contains("2: base 15.2 kg, upper_arm 2.9 kg"),
+        "{}",
+        run.stdout
+    );
+    assert!(run.stdout.contains("18.1 kg"));
+}
+
+#[test]
+fn a_saved_solution_is_a_start() {
+    let folder = Folder::new(PROBLEM);
+    assert_eq!(
+        folder
+            .run(&["plan", "case.toml", "--out", "a", "--quiet"])
+            .code,
+        0
+    );
+    let run = folder.run(&[
+        "plan",
+        "case.toml",
+        "--out",
+        "b",
+        "--quiet",
+        "--warm-start",
+        "a/solution.json",
+    ]);
+    assert_eq!(run.code, 0, "{run:?}");
+    let read = |name| serde_json::from_str::<Value>(&folder.read(name)).unwrap();
+    let (cold, warm) = (read("a/solution.json"), read("b/solution.json"));
+    assert_eq!(warm["iterations"].as_array().unwrap().len(), 1);
+    assert_eq!(warm["points"], cold["points"]);
+    let difference = warm["objective"].as_f64().unwrap() - cold["objective"].as_f64().unwrap();
+    assert!(difference.abs() < 1e-9, "{difference}");
+}
+
+#[test]
+fn a_start_of_another_robot_is_refused() {
+    let folder = Folder::new(PROBLEM);
+    assert_eq!(
+        folder
+            .run(&["plan", "case.toml", "--out", "a", "--quiet"])
+            .code,
+        0
+    );
+    let one_joint = PROBLEM
+        .replace(
+            "\"robot.toml\"",
+            "{ file = \"robot.toml\", lock = { elbow = 0.3 } }",
+        )
+        .replace("[0.0, 0.0]", "[0.0]")
+        .replace("[0.5, 1.0]", "[0.5]")
+        .replace("[5.0, 4.0]", "5.0");
+    folder.write("other.toml", &one_joint);
+    let run = folder.run(&["plan", "other.toml", "--warm-start", "a/solution.json"]);
+    assert_eq!(run.code, 2, "{run:?}");
+    assert_eq!(run.stderr.lines().count(), 1);
+    assert!(
+        run.stderr.starts_with("a/solution.json: "),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn an_infeasible_problem_says_so_and_why() {
+    let problem = format!("{PROBLEM}max_iterations = 2\n").replace(
+        "control = [5.0, 4.0]",
+        "control = [5.0, 4.0]\nfinal_base_attitude = 0.01",
+    );
+    let folder =
+        Folder::new(&problem.replace("joint_position = 1.5", "joint_position = [0.0, 1.0]"));
+    let run = folder.run(&["plan", "case.toml", "--out", "o"]);
+    assert_eq!(run.code, 3, "{run:?}");
+    assert!(
+        run.stdout.contains("limits.final_base_attitude"),
+        "{}",
+        run.stdout
+    );
+    let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
+    assert_eq!(solution["status"], "infeasible");
+    let limits = solution["diagnosis"]["limits"].as_array().unwrap();
+    assert!(
+        limits
+            .iter()
+            .any(|limit| limit["key"] == "limits.final_base_attitude")
+    );
+}
+
+#[test]
+fn a_tolerance_out_of_reach_is_not_convergence() {
+    let folder = Folder::new(PROBLEM);
+    let arguments = [
+        "plan",
+        "case.toml",
+        "--out",
+        "o",
+        "--tolerance",
+        "1e-12",
+        "--set",
+        "mesh.max_iterations=1",
+        "--quiet",
+    ];
+    let run = folder.run(&arguments);
+    assert_eq!(run.code, 4, "{run:?}");
+    assert_eq!(run.stderr.lines().count(), 1);
+    let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
+    assert_eq!(solution["status"], "not_converged");
+    assert!(solution["points"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn doctor_finds_a_linear_solver() {
+    let folder = Folder::new(PROBLEM);
+    folder.write("ipopt.opt", "no_such_option 3\n");
+    let run = folder.run(&["doctor"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    for expected in ["mumps", "Ipopt ", "in this folder, and ignored"] {
+        assert!(run.stdout.contains(expected), "{}", run.stdout);
+    }
+}
+
+/// Ctrl-C leaves the best trajectory, marked.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_plan_is_written_and_marked() {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    // A mesh large enough to be at work when the signal comes.
+    let problem = PROBLEM
+        .replace("segments = 4", "segments = 4000")
+        .replace("tolerance = 1e-3", "tolerance = 1e-13");
+    let folder = Folder::new(&problem);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ffsm-ipopt"))
+        .args(["plan", "case.toml", "--out", "o", "--quiet"])
+        .current_dir(folder.path())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // The folder is there once the handler is about to be.
+    while !folder.path().join("o").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    let interrupted = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(interrupted.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
+    assert_eq!(solution["status"], "interrupted");
+}

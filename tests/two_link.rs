@@ -1,0 +1,169 @@
+//! The paper's case: known answers of the relaxed and the smooth problem.
+
+mod problems;
+
+use ffsm_ipopt::nlp::Control;
+use ffsm_ipopt::planner::{Planner, Start, Status, plan, straight_line};
+use ffsm_ipopt::refine::{Decision, Method};
+
+#[test]
+fn straight_joint_path_turns_the_base() {
+    // Pinocchio, SPART and MuJoCo agree on these digits.
+    let line = straight_line(&problems::relaxed());
+    assert!((line.base_attitude[0].to_degrees() + 36.64882).abs() < 1e-5);
+    assert!((line.base_displacement[0] - 0.01475023).abs() < 1e-8);
+    assert!((line.base_displacement[1] - 0.00414488).abs() < 1e-8);
+}
+
+#[test]
+fn straight_joint_path_is_the_same_in_space() {
+    let mut problem = problems::relaxed();
+    let plane = straight_line(&problem);
+    problem.robot = problem.robot.in_space();
+    let space = straight_line(&problem);
+    assert!((plane.base_attitude[0] - space.base_attitude[2]).abs() < 1e-12);
+    assert!(space.base_attitude[0].abs() < 1e-14 && space.base_attitude[1].abs() < 1e-14);
+    assert!((plane.base_displacement[0] - space.base_displacement[0]).abs() < 1e-12);
+}
+
+#[test]
+fn first_mesh_of_the_relaxed_case() {
+    let mut problem = problems::relaxed();
+    problem.mesh.max_iterations = 1;
+    let plan = plan(&problem).unwrap();
+    assert_eq!(plan.status, Status::NotConverged);
+    assert!(
+        (plan.objective - 0.4343427).abs() < 1e-6,
+        "J = {}",
+        plan.objective
+    );
+}
+
+#[test]
+fn relaxed_case_to_1e_5_within_six_meshes() {
+    let plan = plan(&problems::relaxed()).unwrap();
+    assert_eq!(plan.status, Status::Solved);
+    assert!(plan.iterations.len() <= 6);
+    assert!(plan.max_error <= 1e-5);
+    assert!(
+        (plan.objective - 0.4342434).abs() < 1e-6,
+        "J = {}",
+        plan.objective
+    );
+    let degrees = plan.metrics.final_base_attitude.to_degrees();
+    assert!(
+        (degrees - 36.550).abs() < 2e-3,
+        "final base attitude {degrees}°"
+    );
+}
+
+#[test]
+fn smooth_case_meets_its_optimum() {
+    let plan = plan(&problems::smooth()).unwrap();
+    assert_eq!(plan.status, Status::Solved);
+    assert!(
+        (plan.objective - 0.435641534).abs() < 1e-8,
+        "J = {}",
+        plan.objective
+    );
+    let first = &plan.iterations[0];
+    assert!(
+        (first.max_error - 4.5e-4).abs() < 5e-6,
+        "first error {}",
+        first.max_error
+    );
+    assert!(plan.max_error <= 1e-5);
+    assert!(first.decisions.iter().any(|d| *d != Decision::Keep));
+}
+
+#[test]
+fn smooth_case_by_the_global_method() {
+    let mut problem = problems::smooth();
+    problem.mesh.method = Method::Global;
+    let plan = plan(&problem).unwrap();
+    assert_eq!(plan.status, Status::Solved);
+    assert!(
+        (plan.objective - 0.435641534).abs() < 1e-8,
+        "J = {}",
+        plan.objective
+    );
+    assert!(plan.iterations.iter().all(|record| record.segments == 1));
+    // Twenty points already leave an error of 1.4e-4 only.
+    assert!((plan.iterations[0].max_error - 1.4e-4).abs() < 1e-5);
+}
+
+#[test]
+fn layers_defeat_the_global_method() {
+    let mut problem = problems::relaxed();
+    problem.mesh.method = Method::Global;
+    let plan = plan(&problem).unwrap();
+    assert_eq!(plan.status, Status::NotConverged);
+    assert_eq!(
+        plan.iterations.last().unwrap().points,
+        problem.mesh.max_global_points
+    );
+    assert!(plan.max_error > 1e-2);
+}
+
+#[test]
+fn both_forms_of_the_dynamics_plan_the_same() {
+    let plane = plan(&problems::smooth()).unwrap();
+    let mut problem = problems::smooth();
+    let robot = problem.robot.in_space();
+    let spatial = ffsm_ipopt::planner::Problem::new("space", robot, 20.0, &[0.0; 2], &[0.0; 2]);
+    problem.robot = spatial.robot;
+    let yaw_only = |value: f64| vec![0.0, 0.0, value];
+    problem.cost.final_base_attitude = yaw_only(1.0);
+    problem.cost.base_rate = yaw_only(0.6);
+    problem.cost.final_base_position = vec![1.0, 1.0, 0.0];
+    problem.limits.base_attitude = spatial.limits.base_attitude;
+    problem.limits.final_base_attitude = spatial.limits.final_base_attitude;
+    problem.limits.base_rate = spatial.limits.base_rate;
+    let space = plan(&problem).unwrap();
+    assert_eq!(space.status, Status::Solved);
+    assert!((plane.objective - space.objective).abs() < 1e-9);
+}
+
+#[test]
+fn a_saved_solution_starts_the_next_plan() {
+    let mut problem = problems::smooth();
+    problem.mesh.tolerance = 1e-3;
+    let mut planner = Planner::new();
+    let cold = planner.plan(&problem).unwrap();
+    let start = Start {
+        trajectory: cold.discretization.clone(),
+        iterate: Some(cold.iterate.clone()),
+    };
+    let warm = planner
+        .plan_with(&problem, Some(&start), &mut |_| Control::Continue)
+        .unwrap();
+    assert!((warm.objective - cold.objective).abs() < 1e-9);
+    assert!(warm.iterations[0].nlp_iterations < cold.iterations[0].nlp_iterations);
+}
+
+#[test]
+fn a_planner_plans_different_problems_in_a_row() {
+    let mut planner = Planner::new();
+    for problem in [problems::smooth(), problems::relaxed(), problems::smooth()] {
+        let kept = planner.plan(&problem).unwrap();
+        let fresh = plan(&problem).unwrap();
+        assert_eq!(kept.objective, fresh.objective, "{}", problem.name);
+    }
+}
+
+#[test]
+fn the_monitor_stops_a_plan_and_keeps_what_there_is() {
+    let mut seen = 0;
+    let plan = Planner::new()
+        .plan_with(&problems::relaxed(), None, &mut |_| {
+            seen += 1;
+            if seen > 5 {
+                Control::Stop
+            } else {
+                Control::Continue
+            }
+        })
+        .unwrap();
+    assert_eq!(plan.status, Status::Interrupted);
+    assert_eq!(plan.trajectory.t.len(), 51);
+}

@@ -1,0 +1,323 @@
+//! The independent re-integration against motions that are known otherwise.
+
+mod problems;
+mod trees;
+
+use fastrand::Rng;
+use ffsm_ipopt::collocation::Mesh;
+use ffsm_ipopt::dynamics::attitude::Attitude;
+use ffsm_ipopt::dynamics::{Data, Model, Tree};
+use ffsm_ipopt::nalgebra::Vector3;
+use ffsm_ipopt::planner::Problem;
+use ffsm_ipopt::transcription::Discretization;
+use ffsm_ipopt::verify::integrate::{DormandPrince, Motion, Stuck};
+use ffsm_ipopt::verify::{Verification, VerifyError, verify};
+use problems::two_link;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::f64::consts::PI;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+// SAFETY: every call is handed on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// Not such that a unit of τ lasts one second.
+const DURATION: f64 = 17.0;
+
+/// A rest-to-rest quintic between random joint positions: positions, rates and accelerations.
+struct Quintic {
+    from: Vec<f64>,
+    to: Vec<f64>,
+}
+
+impl Quintic {
+    fn at(&self, fraction: f64) -> [Vec<f64>; 3] {
+        let s = fraction;
+        let blend = [
+            s.powi(3) * (10.0 - 15.0 * s + 6.0 * s * s),
+            30.0 * (s * (1.0 - s)).powi(2) / DURATION,
+            60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / DURATION.powi(2),
+        ];
+        [0, 1, 2].map(|order| {
+            let offset = if order == 0 { 1.0 } else { 0.0 };
+            self.from
+                .iter()
+                .zip(&self.to)
+                .map(|(a, b)| offset * a + blend[order] * (b - a))
+                .collect()
+        })
+    }
+}
+
+/// The plan that goes with the path, by the dynamics that are to be checked.
+fn plan<Sp: Attitude>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretization {
+    let n = tree.joint_count();
+    let mut data = Data::<Sp, f64>::new(tree);
+    let rate = |fraction: f64, eta: &[f64], data: &mut Data<Sp, f64>| {
+        let [q, dq, _] = path.at(fraction);
+        tree.kinematics(&q, data);
+        tree.momentum(data);
+        tree.base_rate(&dq, data);
+        let mut rates = vec![0.0; Sp::ANGLES];
+        Sp::rates(eta, &data.base_rate, &mut rates);
+        rates
+    };
+    let mut eta = vec![0.0; Sp::ANGLES];
+    let mut reached = 0.0;
+    Discretization::sample(mesh, DURATION, Sp::ANGLES + 2 * n, n, |fraction, x, u| {
+        // Classical Runge-Kutta steps from node to node, fine enough for rounding to count.
+        let steps = 40;
+        let h = (fraction - reached) / f64::from(steps);
+        for step in 0..steps {
+            let s = reached + h * f64::from(step);
+            let mut along = |s: f64, k: &[f64], by: f64| {
+                let eta: Vec<f64> = eta
+                    .iter()
+                    .zip(k)
+                    .map(|(e, k)| e + by * DURATION * k)
+                    .collect();
+                rate(s, &eta, &mut data)
+            };
+            let k1 = along(s, &vec![0.0; Sp::ANGLES], 0.0);
+            let k2 = along(s + 0.5 * h, &k1, 0.5 * h);
+            let k3 = along(s + 0.5 * h, &k2, 0.5 * h);
+            let k4 = along(s + h, &k3, h);
+            for i in 0..Sp::ANGLES {
+                eta[i] += h * DURATION / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+            }
+        }
+        reached = fraction;
+        let [q, dq, ddq] = path.at(fraction);
+        tree.kinematics(&q, &mut data);
+        tree.momentum(&mut data);
+        tree.base_rate(&dq, &mut data);
+        tree.mass_matrix(&mut data);
+        tree.bias(&dq, &mut data);
+        let mut free = data.bias.clone();
+        data.factors.factor(&data.mass_matrix);
+        data.factors.solve(&mut free);
+        for j in 0..n {
+            u[j] = ddq[j] + free[j];
+        }
+        x[..Sp::ANGLES].copy_from_slice(&eta);
+        x[Sp::ANGLES..Sp::ANGLES + n].copy_from_slice(&q);
+        x[Sp::ANGLES + n..].copy_from_slice(&dq);
+    })
+}
+
+fn case(model: Model, from: Vec<f64>, to: Vec<f64>, mesh: Mesh) -> (Problem, Discretization) {
+    let path = Quintic { from, to };
+    let plan = match Tree::planar(&model) {
+        Some(tree) => plan(&tree, &path, mesh),
+        None => plan(&Tree::spatial(&model), &path, mesh),
+    };
+    (
+        Problem::new("test", model, DURATION, &path.from, &path.to),
+        plan,
+    )
+}
+
+fn two_link_plan(mesh: Mesh) -> (Problem, Discretization) {
+    case(two_link(), vec![0.0, 0.0], vec![PI / 6.0, PI / 3.0], mesh)
+}
+
+fn assert_exact(name: &str, found: &Verification) {
+    for (what, value, limit) in [
+        ("base attitude", found.max_base_attitude_drift, 1e-10),
+        ("base position", found.max_base_position_drift, 1e-10),
+        ("joints", found.max_joint_drift, 1e-10),
+        (
+            "base attitude of the replay",
+            found.replay_base_attitude_drift,
+            1e-8,
+        ),
+        (
+            "base position of the replay",
+            found.replay_base_position_drift,
+            1e-8,
+        ),
+        ("linear momentum", found.max_linear_momentum, 1e-11),
+        ("angular momentum", found.max_angular_momentum, 1e-11),
+        ("energy", found.max_energy_gap, 1e-11),
+    ] {
+        assert!(
+            value < limit,
+            "{name}: {what} off by {value:.1e}: {found:?}"
+        );
+    }
+    assert!(found.steps > 20);
+}
+
+#[test]
+fn an_exact_plan_shows_no_drift() {
+    let mesh = || Mesh::uniform(10, 12).unwrap();
+    let (problem, plan) = two_link_plan(mesh());
+    assert_exact("table 1", &verify(&problem, &plan).unwrap());
+
+    let rng = &mut Rng::with_seed(20);
+    let mut robots = trees::zoo(21);
+    robots.push(trees::planar(rng, Vector3::y()));
+    robots.push(two_link().in_space());
+    for model in robots {
+        let n = model.joint_count();
+        let (from, to) = (trees::values(rng, n, 0.6), trees::values(rng, n, 0.6));
+        let (problem, plan) = case(model, from, to, mesh());
+        assert_exact(problem.robot.name(), &verify(&problem, &plan).unwrap());
+    }
+}
+
+#[test]
+fn a_coarse_plan_drifts() {
+    let drift = |segments| {
+        let (problem, plan) = two_link_plan(Mesh::uniform(segments, 3).unwrap());
+        verify(&problem, &plan).unwrap()
+    };
+    let (coarse, fine) = (drift(4), drift(16));
+    assert!(coarse.max_joint_drift > 1e-4, "{coarse:?}");
+    assert!(
+        fine.max_joint_drift < 0.05 * coarse.max_joint_drift,
+        "{fine:?}"
+    );
+    // Momentum and energy balance hold whatever the plan is worth.
+    assert!(coarse.max_linear_momentum < 1e-10, "{coarse:?}");
+    assert!(coarse.max_angular_momentum < 1e-10, "{coarse:?}");
+    assert!(coarse.max_energy_gap < 1e-10, "{coarse:?}");
+}
+
+#[test]
+fn a_false_base_attitude_is_found() {
+    let (problem, mut plan) = two_link_plan(Mesh::uniform(10, 8).unwrap());
+    let last = plan.x.len() - plan.states;
+    plan.x[last] += 1e-3;
+    let found = verify(&problem, &plan).unwrap();
+    assert!(
+        (found.max_base_attitude_drift - 1e-3).abs() < 1e-6,
+        "{found:?}"
+    );
+    assert!(
+        (found.replay_base_attitude_drift - 1e-3).abs() < 1e-6,
+        "{found:?}"
+    );
+    assert!(found.replay_base_position_drift > 1e-5, "{found:?}");
+    assert!(found.max_joint_drift < 1e-6, "{found:?}");
+}
+
+#[test]
+fn a_false_control_moves_the_joints_but_not_the_replay() {
+    let (problem, mut plan) = two_link_plan(Mesh::uniform(10, 8).unwrap());
+    plan.u[0] += 1e-3;
+    let found = verify(&problem, &plan).unwrap();
+    assert!(found.max_joint_drift > 1e-5, "{found:?}");
+    assert!(found.replay_base_attitude_drift < 1e-6, "{found:?}");
+}
+
+#[test]
+fn steps_do_not_allocate() {
+    let (problem, plan) = two_link_plan(Mesh::uniform(10, 8).unwrap());
+    let count = |plan: &Discretization| {
+        let before = ALLOCATIONS.get();
+        let found = verify(&problem, plan).unwrap();
+        (ALLOCATIONS.get() - before, found.steps)
+    };
+    let calm = count(&plan);
+    let mut rough = plan;
+    rough
+        .u
+        .iter_mut()
+        .enumerate()
+        .for_each(|(i, u)| *u += (i as f64).sin());
+    let rough = count(&rough);
+    assert!(rough.1 > 2 * calm.1, "{} and {} steps", calm.1, rough.1);
+    assert_eq!(rough.0, calm.0);
+}
+
+#[test]
+fn misuse_is_explained() {
+    let (problem, plan) = two_link_plan(Mesh::uniform(2, 3).unwrap());
+    let other = Problem::new("other", trees::zoo(1).remove(1), 1.0, &[0.0; 3], &[0.0; 3]);
+    let error = verify(&other, &plan).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            VerifyError::Shape {
+                found: 5,
+                expected: 9,
+                ..
+            }
+        ),
+        "{error}"
+    );
+
+    let mut damaged = plan.clone();
+    damaged.u[1] = f64::NAN;
+    let error = verify(&problem, &damaged).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            VerifyError::NotFinite {
+                what: "control",
+                ..
+            }
+        ),
+        "{error}"
+    );
+
+    let mut wild = plan;
+    wild.u[2] = 1e300;
+    let error = verify(&problem, &wild).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("the full dynamics stops at t = "),
+        "{error}"
+    );
+}
+
+/// ẏ = y² with the solution 1/(1 − t), which ends at t = 1.
+struct Blowup;
+
+impl Motion for Blowup {
+    type Error = ();
+    fn rate(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), ()> {
+        dy[0] = y[0] * y[0];
+        Ok(())
+    }
+}
+
+#[test]
+fn the_integrator_meets_its_tolerance_and_says_where_it_is_stuck() {
+    let mut y = [1.0];
+    let mut integrator = DormandPrince::new(1, 1e-10, 1e-12, 100_000);
+    integrator
+        .advance(&mut Blowup, [0.0, 0.5], &mut y, true, |_, _| {})
+        .unwrap();
+    integrator
+        .advance(&mut Blowup, [0.5, 0.9], &mut y, false, |_, _| {})
+        .unwrap();
+    assert!((y[0] / 10.0 - 1.0).abs() < 1e-8, "{y:?}");
+    assert!(integrator.taken() < 1000);
+    let stuck = integrator
+        .advance(&mut Blowup, [0.9, 2.0], &mut y, false, |_, _| {})
+        .unwrap_err();
+    let Stuck::Underflow(t) = stuck else {
+        panic!("{stuck:?}")
+    };
+    assert!((t - 1.0).abs() < 1e-6, "{t}");
+}
