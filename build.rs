@@ -41,10 +41,10 @@ fn main() {
 fn revision() -> Option<String> {
     // The reflog grows with every commit and checkout.
     for name in ["HEAD", "logs/HEAD"] {
-        if let Some(path) = run("git", &["rev-parse", "--git-path", name]) {
-            if Path::new(&path).exists() {
-                println!("cargo::rerun-if-changed={path}");
-            }
+        if let Some(path) = run("git", &["rev-parse", "--git-path", name])
+            && Path::new(&path).exists()
+        {
+            println!("cargo::rerun-if-changed={path}");
         }
     }
     let revision = run("git", &["rev-parse", "--short=12", "HEAD"])?;

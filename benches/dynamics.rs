@@ -2,6 +2,8 @@
 
 #[path = "../tests/problems/mod.rs"]
 mod problems;
+#[path = "../tests/trees/mod.rs"]
+mod trees;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use ffsm_ipopt::autodiff::{Dual, HyperDual, Scalar};
@@ -40,7 +42,7 @@ fn dynamics(c: &mut Criterion) {
     bench::<Planar, Dual<8>>(c, "dynamics/plane/dual 8", &plane);
     bench::<Planar, HyperDual<4, 4>>(c, "dynamics/plane/hyper-dual 4×4", &plane);
     for n in [2, 4, 7, 14] {
-        let space = Tree::<Spatial>::spatial(&problems::random_chain(n, 5));
+        let space = Tree::<Spatial>::spatial(&trees::chain(n, 5));
         bench::<Spatial, f64>(c, "dynamics/space/value", &space);
         bench::<Spatial, Dual<8>>(c, "dynamics/space/dual 8", &space);
         bench::<Spatial, HyperDual<4, 4>>(c, "dynamics/space/hyper-dual 4×4", &space);

@@ -2,6 +2,8 @@
 
 #[path = "../tests/problems/mod.rs"]
 mod problems;
+#[path = "../tests/trees/mod.rs"]
+mod trees;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use ffsm_ipopt::collocation::Mesh;
@@ -15,7 +17,7 @@ fn derivatives(c: &mut Criterion) {
     let problem = problems::relaxed();
     let plane = FreeFloating::planar(&problem).expect("a planar arm");
     let joints = 7;
-    let arm = problems::random_chain(joints, 5);
+    let arm = trees::chain(joints, 5);
     let mut spatial = Problem::new("chain", arm, 10.0, &vec![0.0; joints], &vec![0.4; joints]);
     spatial.cost.base_rate = vec![1.0; 3];
     spatial.cost.joint_rate = vec![0.1; joints];

@@ -52,6 +52,7 @@ impl Ocp for Slide {
     }
 }
 
+/// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let settings = Settings {
         segments: 4,

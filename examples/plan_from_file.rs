@@ -9,6 +9,7 @@ use ffsm_ipopt::planner::{Status, plan};
 use std::error::Error;
 use std::path::Path;
 
+/// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/config/table1-smooth.toml");
     let file = std::env::args().nth(1).filter(|a| a.ends_with(".toml"));

@@ -45,6 +45,7 @@ fn robot() -> Result<Model, Box<dyn Error>> {
     )?)
 }
 
+/// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let mut problem = Problem::new("deploy", robot()?, 15.0, &[0.0; 3], &[0.8, -0.6, 0.9]);
     problem.limits.joint_velocity = vec![Interval::symmetric(0.5); 3];

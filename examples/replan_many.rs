@@ -10,6 +10,7 @@ use ffsm_ipopt::planner::{Planner, Start, Status};
 use std::error::Error;
 use std::path::Path;
 
+/// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/config/table1-smooth.toml");
     let mut problem = ProblemFile::load(Path::new(file), &Overrides::default())?.problem;

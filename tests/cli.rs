@@ -368,6 +368,29 @@ fn a_tolerance_out_of_reach_is_not_convergence() {
 }
 
 #[test]
+fn table2_sets_both_methods_beside_the_published_figures() {
+    let folder = Folder::new(PROBLEM);
+    let run = folder.run(&["table2", "--out", "o", "--repeat", "1"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run:?}");
+    let markdown = folder.read("o/table2.md");
+    assert!(run.stdout.starts_with(&markdown), "{}", run.stdout);
+    let data: Value = serde_json::from_str(&folder.read("o/table2.json")).unwrap();
+    let rows = data["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 12);
+    let of =
+        |line: &str| line.starts_with('|') && (line.contains("a-rpm") || line.contains(" rpm"));
+    assert_eq!(markdown.lines().filter(|line| of(line)).count(), 12);
+    for row in rows {
+        let within = row["max_error"].as_f64().unwrap() <= row["tolerance"].as_f64().unwrap();
+        assert_eq!(row["reached"], within, "{row}");
+        assert!(row["published"]["points"].is_u64(), "{row}");
+    }
+    let smooth = rows.iter().filter(|row| row["problem"] == "table1-smooth");
+    assert!(smooth.clone().count() == 6 && smooth.clone().all(|row| row["reached"] == true));
+    assert_eq!(folder.read("o/table2.csv").lines().count(), 13);
+}
+
+#[test]
 fn doctor_finds_a_linear_solver() {
     let folder = Folder::new(PROBLEM);
     folder.write("ipopt.opt", "no_such_option 3\n");

@@ -1,5 +1,8 @@
 //! Second-order dual numbers that carry one rectangular block of the Hessian.
 
+// The product and quotient rules are sums and products.
+#![allow(clippy::suspicious_arithmetic_impl)]
+
 use super::Scalar;
 use num_traits::{One, Zero};
 use std::array::from_fn;
@@ -130,7 +133,6 @@ impl<const R: usize, const C: usize> Mul for HyperDual<R, C> {
 impl<const R: usize, const C: usize> Div for HyperDual<R, C> {
     type Output = Self;
     #[inline]
-    #[allow(clippy::suspicious_arithmetic_impl)]
     fn div(self, rhs: Self) -> Self {
         self * rhs.recip()
     }

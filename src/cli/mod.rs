@@ -61,7 +61,8 @@ pub fn run() -> ExitCode {
     match result {
         Ok(outcome) => ExitCode::from(outcome as u8),
         Err(failure) => {
-            terminal::warn(&failure.to_string());
+            // One line, whatever names it quotes.
+            terminal::warn(&failure.to_string().replace('\n', "\\n"));
             ExitCode::from(failure.code())
         }
     }

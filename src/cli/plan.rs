@@ -65,7 +65,7 @@ impl Arguments {
         }
         if let Some(tolerance) = self.tolerance {
             overrides.number(
-                &format!("--tolerance {tolerance}"),
+                &format!("--tolerance {tolerance:?}"),
                 "mesh.tolerance",
                 tolerance,
             );
@@ -88,9 +88,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         progress.show(event)
     });
     progress.finish();
-    let plan = plan
-        .map_err(|error| Failure::planning(&file, warm_start, error))?
-        .verified(&file.problem);
+    let plan = plan.map_err(|error| Failure::planning(&file, warm_start, error))?;
+    let plan = match plan.status {
+        Status::Solved | Status::NotConverged => plan.verified(&file.problem),
+        // No plan to check, or no time for it.
+        Status::Infeasible | Status::Interrupted => plan,
+    };
 
     let (json, files) = write(&file, &plan, &folder)?;
     let summary = || report::summary(&file.problem, &plan, &files);

@@ -82,7 +82,7 @@ impl Node {
         match &self.value {
             Value::Text(text) => format!("a string ({})", quoted(text)),
             Value::Integer(number) => number.to_string(),
-            Value::Float(number) => number.to_string().to_lowercase(),
+            Value::Float(number) => format!("{number:?}").to_lowercase(),
             Value::Boolean(value) => value.to_string(),
             Value::Date(_) => "a date".into(),
             Value::Array(elements) => match elements.len() {

@@ -70,7 +70,7 @@ impl ProblemFile {
         Ok(file)
     }
 
-    /// Where a key ("limits.joint_velocity[1]") is given, or the nearest table around it.
+    /// Where a key (`limits.joint_velocity[1]`) is given, or the nearest table around it.
     pub fn place(&self, key: &str) -> Place {
         self.document.locate(key)
     }

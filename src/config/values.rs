@@ -159,10 +159,10 @@ impl Components {
                 .map(|(entry, default)| entry.as_ref().map_or(Ok(*default), bound))
                 .collect();
         };
-        if let Some(pair) = flat_pair(&elements) {
-            if self.pair(item, pair)? {
-                return range(item, &elements).map(all);
-            }
+        if let Some(pair) = flat_pair(&elements)
+            && self.pair(item, pair)?
+        {
+            return range(item, &elements).map(all);
         }
         self.elements(item, elements)?.iter().map(bound).collect()
     }
@@ -217,7 +217,7 @@ fn range(item: &Item<'_>, elements: &[Item<'_>]) -> Result<Interval, ConfigError
     if lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY {
         return Ok(Interval::new(lower, upper));
     }
-    let found = format!("[{lower}, {upper}]").to_lowercase();
+    let found = format!("[{lower:?}, {upper:?}]").to_lowercase();
     Err(item.error(found, "[lo, hi] with lo not above hi, or bounds above zero"))
 }
 

@@ -2,6 +2,7 @@
 
 use super::guess::{JointPath, along};
 use super::{Diagnosis, Event, FreeFloating, LimitFinding, PlanError, Problem};
+use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
 use crate::nlp::{self, Control, Statistics};
 use crate::ocp::{Elastic, Interval, LimitGroup, Limited, Ocp};
@@ -350,6 +351,7 @@ fn findings<Sp: Attitude>(
                 limits.push(LimitFinding {
                     key: key.into(),
                     component: component.clone(),
+                    unit: unit(problem, key, member_joint(member, Sp::ANGLES, n, rate_rows)),
                     bound,
                     excess,
                     smallest_bound: widened(bound, reached),
@@ -373,40 +375,69 @@ fn widened(bound: Interval, reached: Interval) -> Interval {
     }
 }
 
+/// One sentence; limits of the same bound on the same component share their part of it.
 fn summary(limits: &[LimitFinding]) -> String {
-    let described: Vec<String> = limits
-        .iter()
-        .map(|finding| {
-            let angle = finding.key != "limits.torque";
-            let (factor, unit) = if angle {
-                (180.0 / std::f64::consts::PI, "°")
-            } else {
-                (1.0, " N·m")
-            };
-            let suffix = match finding.key.as_str() {
-                "limits.base_rate" | "limits.joint_velocity" => "/s",
-                "limits.control" => "/s²",
-                _ => "",
-            };
-            let show = |b: &Interval| {
-                if b.lower == -b.upper {
-                    format!("±{:.2}{unit}{suffix}", b.upper * factor)
-                } else {
-                    format!(
-                        "[{:.2}, {:.2}]{unit}{suffix}",
-                        b.lower * factor,
-                        b.upper * factor
-                    )
-                }
-            };
-            format!(
-                "{} = {} ({}) cannot hold; the smallest that was found to work is {}",
-                finding.key,
-                show(&finding.bound),
-                finding.component,
-                show(&finding.smallest_bound)
-            )
-        })
-        .collect();
-    described.join("; ")
+    let mut parts: Vec<(Vec<String>, &LimitFinding)> = Vec::new();
+    for finding in limits {
+        let limit = format!("{} = {}", finding.key, shown(finding, &finding.bound));
+        let same = |other: &LimitFinding| {
+            other.component == finding.component
+                && other.bound == finding.bound
+                && shown(other, &other.smallest_bound) == shown(finding, &finding.smallest_bound)
+        };
+        match parts.iter_mut().find(|(_, other)| same(other)) {
+            Some((keys, _)) => keys.push(limit),
+            None => parts.push((vec![limit], finding)),
+        }
+    }
+    let part = |(keys, finding): &(Vec<String>, &LimitFinding)| {
+        format!(
+            "{} ({}) cannot hold; the smallest bound that was found to work is {}",
+            keys.join(" and "),
+            finding.component,
+            shown(finding, &finding.smallest_bound)
+        )
+    };
+    parts.iter().map(part).collect::<Vec<_>>().join("; ")
+}
+
+/// The joint a bound is about; `None` for the base.
+fn member_joint(member: Limited, angles: usize, n: usize, rate_rows: bool) -> Option<usize> {
+    match member {
+        Limited::State(i) | Limited::Terminal(i) => i.checked_sub(angles).map(|k| k % n),
+        Limited::Control(j) => Some(j),
+        Limited::Path(p) if rate_rows => p.checked_sub(angles),
+        Limited::Path(p) => Some(p),
+    }
+}
+
+fn unit(problem: &Problem, key: &str, joint: Option<usize>) -> &'static str {
+    let slides = joint.is_some_and(|j| problem.robot.joints()[j].kind == JointKind::Prismatic);
+    match (key, slides) {
+        ("limits.torque", false) => "N·m",
+        ("limits.torque", true) => "N",
+        ("limits.base_rate" | "limits.joint_velocity", false) => "rad/s",
+        ("limits.joint_velocity", true) => "m/s",
+        ("limits.control", false) => "rad/s²",
+        ("limits.control", true) => "m/s²",
+        (_, true) => "m",
+        (_, false) => "rad",
+    }
+}
+
+/// A bound as a person reads it: angles in degrees.
+fn shown(finding: &LimitFinding, bound: &Interval) -> String {
+    let (factor, unit) = match finding.unit.strip_prefix("rad") {
+        Some(rest) => (180.0 / std::f64::consts::PI, format!("°{rest}")),
+        None => (1.0, format!(" {}", finding.unit)),
+    };
+    if bound.lower == -bound.upper {
+        format!("±{:.2}{unit}", bound.upper * factor)
+    } else {
+        format!(
+            "[{:.2}, {:.2}]{unit}",
+            bound.lower * factor,
+            bound.upper * factor
+        )
+    }
 }

@@ -95,8 +95,8 @@ impl<Sp: Attitude> FreeFloating<Sp> {
                 });
             }
         };
-        for i in 0..Sp::ANGLES {
-            let along = states[i].bounds;
+        for (i, state) in states.iter().enumerate().take(Sp::ANGLES) {
+            let along = state.bounds;
             let at_end = self.formulation.terminal[i];
             let members = [(along, Limited::State(i)), (at_end, Limited::Terminal(i))];
             let tightest = along.intersect(&at_end);
@@ -105,7 +105,7 @@ impl<Sp: Attitude> FreeFloating<Sp> {
                 .filter(|(b, _)| !b.is_free())
                 .map(|(_, m)| m)
                 .collect();
-            push(states[i].name.clone(), members, &tightest);
+            push(state.name.clone(), members, &tightest);
         }
         for (i, row) in self
             .formulation

@@ -5,8 +5,8 @@ mod event;
 mod free_floating;
 mod guess;
 mod plan;
-mod planner;
 mod problem;
+mod radau;
 mod straight_line;
 mod trajectory;
 
@@ -14,6 +14,6 @@ pub use crate::refine::Start;
 pub use event::Event;
 pub use free_floating::FreeFloating;
 pub use plan::{Diagnosis, LimitFinding, Metrics, Plan, Status, Timing, Trajectory};
-pub use planner::{PlanError, Planner, plan};
 pub use problem::{Cost, Limits, Problem, ProblemError, Task};
+pub use radau::{PlanError, Planner, plan};
 pub use straight_line::{StraightLine, straight_line};

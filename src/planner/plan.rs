@@ -80,6 +80,8 @@ pub struct LimitFinding {
     pub bound: Interval,
     /// The component it is about ("base attitude", "base pitch", "joint 2 rate").
     pub component: String,
+    /// Unit of the bounds: "rad", "m/s", "N·m" …
+    pub unit: &'static str,
     /// How much the bound must give way at least, same unit.
     pub excess: f64,
     /// The smallest bound that was found to work, all other limits kept.

@@ -80,7 +80,7 @@ pub struct Problem {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{key}: {found}; expected {expected}")]
 pub struct ProblemError {
-    /// Key path as in the problem file ("limits.joint_velocity[1]").
+    /// Key path as in the problem file (`limits.joint_velocity[1]`).
     pub key: String,
     /// What stands there.
     pub found: String,

@@ -3,7 +3,7 @@
 use super::transfer::{Duals, resample};
 use super::{Record, Settings, midpoint_errors, quadrature_error, refine};
 use crate::collocation::Mesh;
-use crate::nlp::{self, Control, Iterate, Progress, Statistics, Status, ipopt};
+use crate::nlp::{self, Control, Iterate, Nlp, Progress, Statistics, Status, ipopt};
 use crate::ocp::Ocp;
 use crate::transcription::{Discretization, Layout, Patterns, Transcription};
 use std::time::Instant;
@@ -138,7 +138,7 @@ impl<O: Ocp> Refinement<'_, O> {
                     settings.warm_start = Some(REFINED_BARRIER);
                     Duals::new(mesh, layout, iterate).on(&trajectory.mesh, program.layout(), x)
                 }
-                (None, Some(warm)) if settings.warm_start.is_some() => {
+                (None, Some(warm)) if settings.warm_start.is_some() && belongs(warm, &program) => {
                     Iterate { x, ..warm.clone() }
                 }
                 _ => {
@@ -201,4 +201,11 @@ impl<O: Ocp> Refinement<'_, O> {
             }
         }
     }
+}
+
+/// Whether the multipliers of a saved iterate are those of this programme: other limits or another
+/// mesh make other rows, and the start is then a primal one.
+fn belongs(warm: &Iterate, program: &impl Nlp) -> bool {
+    let size = program.size();
+    warm.x.len() == size.variables && warm.has_multipliers(size.constraints)
 }

@@ -7,43 +7,17 @@ use crate::planner::{Plan, Problem, Status};
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
 
-/// The summary of `plan`, some thirty lines; `files` are those written.
+/// The summary of `plan`, some twenty lines; `files` are those written.
 pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
     let mut lines = Lines::default();
-    let mesh = &plan.discretization.mesh;
-    lines.add("cost J", format!("{:.9}", plan.objective));
-    let reached = if plan.max_error <= plan.tolerance {
-        "within"
-    } else {
-        "above"
-    };
-    lines.add(
-        "largest error",
-        format!(
-            "{:.3e}, {reached} the tolerance {:e}",
-            plan.max_error, plan.tolerance
-        ),
-    );
-    lines.add(
-        "mesh",
-        format!("{} segments, {} points", mesh.segments(), mesh.points()),
-    );
+    if plan.status != Status::Infeasible {
+        quality(&mut lines, plan);
+    }
     if !problem.task.duration.is_fixed() {
         lines.add("duration", format!("{:.6} s", plan.discretization.duration));
     }
     motion(&mut lines, &problem.robot, plan);
-    if let Some(check) = &plan.verification {
-        lines.add(
-            "re-integrated",
-            format!(
-                "base within {:.1e}° and {:.1e} cm, joints within {:.1e}°; momentum below {:.1e} kg m²/s",
-                check.max_base_attitude_drift.to_degrees(),
-                100.0 * check.max_base_position_drift,
-                check.max_joint_drift.to_degrees(),
-                check.max_angular_momentum
-            ),
-        );
-    }
+    verification(&mut lines, &problem.robot, plan);
     let time = &plan.timing;
     lines.add(
         "time",
@@ -57,18 +31,58 @@ pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
         ),
     );
     for (i, file) in files.iter().enumerate() {
-        lines.add(
-            if i == 0 { "written" } else { "" },
-            file.display().to_string(),
-        );
+        let label = if i == 0 { "written" } else { "" };
+        lines.add(label, file.display().to_string());
     }
+    let heading = match (plan.status, &plan.diagnosis) {
+        (Status::Infeasible, Some(diagnosis)) => format!(
+            "{}: infeasible ({})\n\n{}\n\nThe motion below has those limits relaxed.",
+            problem.name,
+            plan.method.name(),
+            diagnosis.summary
+        ),
+        _ => verdict(problem, plan),
+    };
+    format!("{heading}\n\n{}\n{}", iterations(plan), lines.finish())
+}
 
-    format!(
-        "{}\n\n{}\n{}",
-        verdict(problem, plan),
-        iterations(plan),
-        lines.finish()
-    )
+fn quality(lines: &mut Lines, plan: &Plan) {
+    let mesh = &plan.discretization.mesh;
+    let within = plan.max_error <= plan.tolerance;
+    let reached = if within { "within" } else { "above" };
+    let error = format!(
+        "{:.3e}, {reached} the tolerance {:e}",
+        plan.max_error, plan.tolerance
+    );
+    let size = format!("{} segments, {} points", mesh.segments(), mesh.points());
+    lines.add("cost J", format!("{:.9}", plan.objective));
+    lines.add("largest error", error);
+    lines.add("mesh", size);
+}
+
+fn verification(lines: &mut Lines, robot: &Model, plan: &Plan) {
+    let Some(found) = &plan.verification else {
+        return;
+    };
+    let all_turn = robot
+        .joints()
+        .iter()
+        .all(|joint| joint.kind == JointKind::Revolute);
+    let joints = if all_turn {
+        format!("{:.1e}°", found.max_joint_drift.to_degrees())
+    } else {
+        format!("{:.1e} rad or m", found.max_joint_drift)
+    };
+    let base = format!(
+        "base within {:.1e}° and {:.1e} cm",
+        found.max_base_attitude_drift.to_degrees(),
+        100.0 * found.max_base_position_drift
+    );
+    let momentum = format!("momentum below {:.1e} kg m²/s", found.max_angular_momentum);
+    lines.add(
+        "re-integrated",
+        format!("{base}, joints within {joints}; {momentum}"),
+    );
 }
 
 /// The status in one line, with the diagnosis where there is one.

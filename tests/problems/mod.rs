@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use ffsm_ipopt::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, Model, Placement};
-use ffsm_ipopt::nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use ffsm_ipopt::nalgebra::{Matrix3, Vector3};
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::Problem;
 use std::f64::consts::PI;
@@ -37,58 +37,6 @@ pub fn two_link() -> Model {
         ),
     ];
     Model::new("planar-2link", body("base", 15.20, 0.1454, 0.0), joints).unwrap()
-}
-
-/// A body of random mass properties that a real one could have.
-pub fn random_body(name: &str, random: &mut fastrand::Rng) -> Body {
-    let axis = Vector3::new(random.f64() - 0.5, random.f64() - 0.5, random.f64() - 0.5);
-    let rotation = Rotation3::new(axis * 6.0);
-    let [a, b] = [0.05 + random.f64(), 0.05 + random.f64()];
-    let c = (a - b).abs() + 0.9 * random.f64() * (a + b - (a - b).abs()) + 0.01;
-    let moments = Matrix3::from_diagonal(&Vector3::new(a, b, c));
-    let inertia = rotation * moments * rotation.inverse();
-    let center = Vector3::new(random.f64(), random.f64(), random.f64()) * 0.4;
-    let mass = 1.0 + 9.0 * random.f64();
-    let inertia = Inertia::new(mass, center, inertia).unwrap();
-    Body {
-        name: name.into(),
-        inertia,
-    }
-}
-
-/// A random spatial tree: joint j is carried by `parents[j]`; those in `prismatic` slide.
-pub fn random_tree(parents: &[Option<usize>], prismatic: &[usize], seed: u64) -> Model {
-    let mut random = fastrand::Rng::with_seed(seed);
-    let base = random_body("base", &mut random);
-    let joints = parents
-        .iter()
-        .enumerate()
-        .map(|(j, &parent)| {
-            let mut three = || [0; 3].map(|_| 2.0 * random.f64() - 1.0);
-            let (xyz, rpy, axis) = (three(), three().map(|a| a * PI), three());
-            let slides = prismatic.contains(&j);
-            Joint {
-                name: format!("joint{}", j + 1),
-                kind: if slides {
-                    JointKind::Prismatic
-                } else {
-                    JointKind::Revolute
-                },
-                parent,
-                placement: Placement::from_xyz_rpy(xyz, rpy),
-                axis: Unit::new_normalize(Vector3::from(axis)),
-                limits: JointLimits::NONE,
-                body: random_body(&format!("link{}", j + 1), &mut random),
-            }
-        })
-        .collect();
-    Model::new("random", base, joints).unwrap()
-}
-
-/// A chain of `n` random joints.
-pub fn random_chain(n: usize, seed: u64) -> Model {
-    let parents: Vec<Option<usize>> = (0..n).map(|j: usize| j.checked_sub(1)).collect();
-    random_tree(&parents, &[], seed)
 }
 
 /// `table1-relaxed`: the published case without the bounds on the base attitude.

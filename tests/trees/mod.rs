@@ -1,4 +1,4 @@
-//! Random robots for the dynamics tests.
+//! Random robots for tests and benches.
 #![allow(dead_code)]
 
 use fastrand::Rng;
@@ -71,6 +71,12 @@ pub fn random(rng: &mut Rng, parents: &[Option<usize>], kinds: &[JointKind]) -> 
         })
         .collect();
     Model::new("random", base, joints).unwrap()
+}
+
+/// A chain of `n` turning joints.
+pub fn chain(n: usize, seed: u64) -> Model {
+    let parents: Vec<Option<usize>> = (0..n).map(|j: usize| j.checked_sub(1)).collect();
+    random(&mut Rng::with_seed(seed), &parents, &vec![REVOLUTE; n])
 }
 
 /// Chains of 2, 3 and 7 joints and branching trees, without and with sliding joints.

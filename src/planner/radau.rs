@@ -5,9 +5,9 @@ use super::trajectory::{metrics, trajectory};
 use super::{Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, diagnosis};
 use crate::collocation::MeshError;
 use crate::dynamics::attitude::Attitude;
-use crate::nlp::{self, Control, ipopt};
-use crate::refine::{Outcome, Refinement, Start};
-use crate::transcription::Patterns;
+use crate::nlp::{self, Control, Nlp, ipopt};
+use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
+use crate::transcription::{Discretization, Patterns, Transcription};
 
 use std::time::{Duration, Instant};
 
@@ -149,6 +149,7 @@ impl Planner {
             } else if let Some(found) = diagnosed.diagnosis {
                 status = Status::Infeasible;
                 outcome.trajectory = diagnosed.trajectory;
+                outcome.objective = cost_of(system, patterns, &outcome.trajectory);
                 finding = Some(found);
             } else if diagnosed.feasible {
                 // A point within all limits exists: plan again from there.
@@ -167,13 +168,18 @@ impl Planner {
                 status = grade(&outcome, stopped);
             }
         }
+        let max_error = if status == Status::Infeasible {
+            midpoint_errors(system, &outcome.trajectory).max()
+        } else {
+            outcome.max_error()
+        };
         let trajectory = trajectory(system, &outcome.trajectory);
         Ok(Plan {
             status,
             method: problem.mesh.method,
             objective: outcome.objective,
             tolerance: problem.mesh.tolerance,
-            max_error: outcome.max_error(),
+            max_error,
             metrics: metrics(&trajectory),
             timing: timing(&outcome.statistics, began.elapsed()),
             iterations: outcome.records,
@@ -226,6 +232,17 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
         && a.cost.rate_matrix == b.cost.rate_matrix
         && limited(a) == limited(b)
         && a.task.duration.is_fixed() == b.task.duration.is_fixed()
+}
+
+/// Cost (25) of a trajectory that no solve of the problem itself ended at.
+fn cost_of<Sp: Attitude>(
+    system: &FreeFloating<Sp>,
+    patterns: &Patterns,
+    trajectory: &Discretization,
+) -> f64 {
+    let mut program = Transcription::new(system, patterns, trajectory.mesh.clone());
+    let x = program.pack(trajectory);
+    program.objective(&x).unwrap_or(f64::NAN)
 }
 
 fn check_start<Sp: Attitude>(start: &Start, problem: &Problem) -> Result<(), PlanError> {
