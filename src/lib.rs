@@ -1,4 +1,5 @@
-//! Trajectory optimisation for free-floating space manipulators.
+#![doc = include_str!("../README.md")]
+
 pub mod autodiff;
 pub mod cli;
 pub mod collocation;
@@ -12,4 +13,5 @@ pub mod report;
 pub mod transcription;
 pub mod verify;
 
+/// The small dense algebra that models are described with.
 pub use nalgebra;

@@ -7,6 +7,7 @@ use crate::config::{ConfigError, Overrides, ProblemFile};
 use crate::planner::{Plan, Planner, Status};
 use crate::refine::Method;
 use crate::report::{self, OutputFolder, Provenance};
+use crate::verify::{Verification, verify};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -89,14 +90,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     });
     progress.finish();
     let plan = plan.map_err(|error| Failure::planning(&file, warm_start, error))?;
-    let plan = match plan.status {
-        Status::Solved | Status::NotConverged => plan.verified(&file.problem),
+    let checked = match plan.status {
+        // Where the integration gets stuck, as it may on a bad plan, there is nothing to tell.
+        Status::Solved | Status::NotConverged => verify(&file.problem, &plan.discretization).ok(),
         // No plan to check, or no time for it.
-        Status::Infeasible | Status::Interrupted => plan,
+        Status::Infeasible | Status::Interrupted => None,
     };
 
-    let (json, files) = write(&file, &plan, &folder)?;
-    let summary = || report::summary(&file.problem, &plan, &files);
+    let (json, files) = write(&file, &plan, checked.as_ref(), &folder)?;
+    let summary = || report::summary(&file.problem, &plan, checked.as_ref(), &files);
     if arguments.json {
         terminal::print(&json)?;
     }
@@ -120,9 +122,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 fn write(
     file: &ProblemFile,
     plan: &Plan,
+    checked: Option<&Verification>,
     folder: &OutputFolder,
 ) -> Result<(String, Vec<PathBuf>), Failure> {
-    let solution = report::solution(&file.problem.name, plan, Provenance::of(file));
+    let solution = report::solution(&file.problem.name, plan, checked, Provenance::of(file));
     let failure = |message: String| Failure::Format {
         path: file.path.clone(),
         message,

@@ -64,7 +64,9 @@ impl Progress {
                 self.mesh, record.objective, record.max_error
             ),
             Event::Diagnosing { start, of } => {
-                format!("infeasible, looking for the reason: start {start} of {of}")
+                self.mesh =
+                    format!("no solution; which limits cannot hold? start {start}, {of} at most");
+                self.mesh.clone()
             }
         };
         self.bar.set_message(format!("{}: {message}", self.title));

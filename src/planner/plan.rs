@@ -1,11 +1,9 @@
 //! What a planner returns.
 
-use super::Problem;
 use crate::nlp;
 use crate::ocp::Interval;
 use crate::refine::{Method, Record};
 use crate::transcription::Discretization;
-use crate::verify::{self, Verification};
 use std::time::Duration;
 
 /// How planning ended.
@@ -137,20 +135,8 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// Figures a person asks for first.
     pub metrics: Metrics,
-    /// Independent re-integration, once [`Plan::verified`] was asked for.
-    pub verification: Option<Verification>,
     /// Why there is no plan; only where the status is infeasible.
     pub diagnosis: Option<Diagnosis>,
     /// Where the time went.
     pub timing: Timing,
-}
-
-impl Plan {
-    /// The same plan with its motion re-integrated by [`verify`]; `problem` is the one it was
-    /// planned for. Where re-integration gets stuck, as it may on a failed plan, none is kept.
-    #[must_use]
-    pub fn verified(mut self, problem: &Problem) -> Self {
-        self.verification = verify::verify(problem, &self.discretization).ok();
-        self
-    }
 }

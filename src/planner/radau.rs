@@ -186,7 +186,6 @@ impl Planner {
             discretization: outcome.trajectory,
             iterate: outcome.iterate,
             trajectory,
-            verification: None,
             diagnosis: finding,
         })
     }

@@ -7,8 +7,13 @@ use crate::planner::{self, Plan};
 use crate::refine::Record;
 use crate::{nlp, verify};
 
-/// The solution file of `plan` for the problem `name`.
-pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
+/// The solution file of `plan` for the problem `name`, `checked` where it was re-integrated.
+pub fn solution(
+    name: &str,
+    plan: &Plan,
+    checked: Option<&verify::Verification>,
+    provenance: Provenance,
+) -> Solution {
     let mesh = &plan.discretization.mesh;
     Solution {
         schema: 1,
@@ -27,7 +32,7 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
         },
         trajectory: trajectory(&plan.trajectory),
         metrics: metrics(&plan.metrics),
-        verification: plan.verification.as_ref().map(verification),
+        verification: checked.map(verification),
         diagnosis: plan.diagnosis.as_ref().map(diagnosis),
         timing: timing(&plan.timing),
         provenance,

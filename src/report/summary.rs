@@ -4,11 +4,18 @@ use super::format::{centimetres, degrees, list, seconds};
 use super::lines::Lines;
 use crate::dynamics::{JointKind, Model};
 use crate::planner::{Plan, Problem, Status};
+use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
 
-/// The summary of `plan`, some twenty lines; `files` are those written.
-pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
+/// The summary of `plan`, some twenty lines; `checked` where it was re-integrated; `files`
+/// are those written.
+pub fn summary(
+    problem: &Problem,
+    plan: &Plan,
+    checked: Option<&Verification>,
+    files: &[PathBuf],
+) -> String {
     let mut lines = Lines::default();
     if plan.status != Status::Infeasible {
         quality(&mut lines, plan);
@@ -17,7 +24,9 @@ pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
         lines.add("duration", format!("{:.6} s", plan.discretization.duration));
     }
     motion(&mut lines, &problem.robot, plan);
-    verification(&mut lines, &problem.robot, plan);
+    if let Some(found) = checked {
+        verification(&mut lines, &problem.robot, found);
+    }
     let time = &plan.timing;
     lines.add(
         "time",
@@ -60,10 +69,7 @@ fn quality(lines: &mut Lines, plan: &Plan) {
     lines.add("mesh", size);
 }
 
-fn verification(lines: &mut Lines, robot: &Model, plan: &Plan) {
-    let Some(found) = &plan.verification else {
-        return;
-    };
+fn verification(lines: &mut Lines, robot: &Model, found: &Verification) {
     let all_turn = robot
         .joints()
         .iter()
