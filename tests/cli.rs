@@ -424,8 +424,9 @@ fn an_interrupted_plan_is_written_and_marked() {
         std::thread::sleep(Duration::from_millis(5));
     }
     std::thread::sleep(Duration::from_millis(300));
-    let interrupted = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+    // The shell's own: a bare Debian has no program of that name.
+    let interrupted = Command::new("sh")
+        .args(["-c", &format!("kill -INT {}", child.id())])
         .status()
         .unwrap();
     assert!(interrupted.success());
