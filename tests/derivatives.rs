@@ -6,10 +6,10 @@ mod trees;
 
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
-use ffsm_ipopt::dynamics::Model;
+use ffsm_ipopt::dynamics::{Model, Placement};
 use ffsm_ipopt::nlp::Nlp;
 use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, Interval, Ocp, Point, Quantity};
-use ffsm_ipopt::planner::{FreeFloating, Problem};
+use ffsm_ipopt::planner::{EndEffectorGoal, FreeFloating, GoalFrame, Problem};
 use ffsm_ipopt::transcription::{Patterns, Transcription};
 use num_dual::{DualNum, HyperDual64};
 use num_traits::{One, Zero};
@@ -338,6 +338,34 @@ fn free_duration() {
     let mut problem = loaded(problems::two_link());
     problem.task.duration = Interval::new(1.0, 5.0);
     check_problem(&problem, small());
+}
+
+/// `problem` with a pose for the end effector, fixed in the last body.
+fn with_goal(mut problem: Problem, frame: GoalFrame) -> Problem {
+    let last = problem.robot.joint_count() - 1;
+    let mount = Placement::from_xyz_rpy([0.3, 0.1, -0.2], [0.4, -0.3, 0.8]);
+    problem.robot = problem.robot.with_end_effector(Some(last), mount);
+    let (angles, lengths) = Problem::base_sizes(&problem.robot);
+    problem.task.free_joints = vec![true; last + 1];
+    problem.task.end_effector = Some(EndEffectorGoal {
+        frame,
+        position: Some([0.7, 0.4, -0.3][..lengths].to_vec()),
+        position_tolerance: 0.01,
+        orientation: Some([0.5, -0.2, 0.9][..angles].to_vec()),
+        orientation_tolerance: 0.1,
+    });
+    problem.cost.duration = 0.3;
+    problem.task.duration = Interval::new(1.0, 5.0);
+    problem
+}
+
+#[test]
+fn task_space_goals() {
+    for frame in [GoalFrame::Inertial, GoalFrame::Start, GoalFrame::Base] {
+        check_problem(&with_goal(loaded(problems::two_link()), frame), small());
+        let arm = loaded(trees::chain(3, 4));
+        check_problem(&with_goal(arm, frame), Mesh::uniform(1, 2).unwrap());
+    }
 }
 
 #[test]

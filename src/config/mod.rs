@@ -8,6 +8,7 @@
 mod document;
 mod error;
 mod files;
+mod goal;
 mod inertia;
 mod item;
 mod overrides;

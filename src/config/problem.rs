@@ -118,7 +118,7 @@ fn read(document: &Node, path: &Path, files: Files) -> Result<(Problem, RobotFil
     let lengths = Components::lengths(lengths);
 
     let expected = "a table with duration, initial and final";
-    let task = tables::task(root.require("task", expected)?, &joints)?;
+    let task = tables::task(root.require("task", expected)?, &joints, &angles, &lengths)?;
     let mut problem = Problem::new(&name, model, task.duration.lower, &[], &[]);
     problem.task = task;
     if let Some(item) = root.get("limits") {

@@ -2,6 +2,7 @@
 
 use super::ConfigError;
 use super::document::{Value, quoted};
+use super::goal;
 use super::item::Item;
 use super::values::Components;
 use crate::nlp::{self, OptionValue};
@@ -15,23 +16,44 @@ const MOST: usize = 100_000;
 const MOST_POINTS: usize = 1_000;
 
 /// `[task]`.
-pub(super) fn task(item: &Item<'_>, joints: &Components) -> Result<Task, ConfigError> {
+pub(super) fn task(
+    item: &Item<'_>,
+    joints: &Components,
+    angles: &Components,
+    lengths: &Components,
+) -> Result<Task, ConfigError> {
     let section = item.section(&["duration", "initial", "final"])?;
     let expected = "a table with joints, the joint positions at the start";
     let initial = section
         .require("initial", expected)?
         .section(&["joints", "rates"])?;
-    let expected = "a table with joints, the joint positions at the end";
-    let goal = section.require("final", expected)?.section(&["joints"])?;
+    let expected = "a table with joints, the joint positions at the end, or end_effector";
+    let goal = section
+        .require("final", expected)?
+        .section(&["joints", "guess", "end_effector"])?;
     let expected = format!("joint positions, one a joint: {}", joints.names.join(", "));
+    let initial_joints = joints.vector(initial.require("joints", &expected)?)?;
+    let end_effector = match goal.get("end_effector") {
+        Some(item) => Some(goal::end_effector(item, angles, lengths)?),
+        None => None,
+    };
+    let (final_joints, free_joints) = match (&end_effector, goal.get("joints")) {
+        (None, _) => {
+            let at = joints.vector(goal.require("joints", &expected)?)?;
+            (at, vec![false; joints.names.len()])
+        }
+        (Some(_), given) => goal::joints(given, goal.get("guess"), joints, &initial_joints)?,
+    };
     Ok(Task {
         duration: duration(section.require("duration", DURATION)?)?,
-        initial_joints: joints.vector(initial.require("joints", &expected)?)?,
         initial_rates: match initial.get("rates") {
             Some(rates) => joints.vector(rates)?,
             None => vec![0.0; joints.names.len()],
         },
-        final_joints: joints.vector(goal.require("joints", &expected)?)?,
+        initial_joints,
+        final_joints,
+        free_joints,
+        end_effector,
     })
 }
 
@@ -91,6 +113,7 @@ pub(super) fn cost(
     lengths: &Components,
 ) -> Result<(), ConfigError> {
     const MATRIX: &str = "rate_matrix";
+    const DURATION_WEIGHT: &str = "duration";
     let mut keys = [
         ("final_base_attitude", &mut cost.final_base_attitude, angles),
         (
@@ -104,12 +127,15 @@ pub(super) fn cost(
         ("torque", &mut cost.torque, joints),
     ];
     let mut known = keys.each_ref().map(|(name, ..)| *name).to_vec();
-    known.push(MATRIX);
+    known.extend([DURATION_WEIGHT, MATRIX]);
     let section = item.section(&known)?;
     for (name, weights, components) in &mut keys {
         if let Some(item) = section.get(name) {
             **weights = components.weights(item)?;
         }
+    }
+    if let Some(item) = section.get(DURATION_WEIGHT) {
+        cost.duration = item.number("a finite weight, zero or above")?;
     }
     if let Some(item) = section.get(MATRIX) {
         cost.rate_matrix = Some(matrix(item)?);

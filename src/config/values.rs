@@ -70,7 +70,10 @@ impl Components {
     }
 
     /// Entries of a table by component; `None` for those left out.
-    fn by_name<'a>(&self, entries: Vec<Item<'a>>) -> Result<Vec<Option<Item<'a>>>, ConfigError> {
+    pub(super) fn by_name<'a>(
+        &self,
+        entries: Vec<Item<'a>>,
+    ) -> Result<Vec<Option<Item<'a>>>, ConfigError> {
         let mut found = vec![None; self.len()];
         for entry in entries {
             match self.names.iter().position(|name| name == entry.name) {

@@ -14,6 +14,14 @@ pub trait Attitude: Space {
 
     /// A vector in base axes, turned to inertial axes.
     fn to_inertial<S: Scalar>(eta: &[S], v: &Self::Linear<S>) -> Self::Linear<S>;
+
+    /// An orientation in base axes, turned to inertial axes.
+    fn orient<S: Scalar>(eta: &[S], orientation: &Self::Orientation<S>) -> Self::Orientation<S>;
+
+    /// The constant orientation that attitude angles (rad) describe.
+    fn orientation(eta: &[f64]) -> Self::Orientation<f64> {
+        Self::orient(eta, &Self::aligned())
+    }
 }
 
 impl Attitude for Planar {
@@ -28,6 +36,11 @@ impl Attitude for Planar {
     fn to_inertial<S: Scalar>(eta: &[S], v: &Vector2<S>) -> Vector2<S> {
         let (s, c) = eta[0].sin_cos();
         Vector2::new(c * v.x - s * v.y, s * v.x + c * v.y)
+    }
+
+    #[inline]
+    fn orient<S: Scalar>(eta: &[S], orientation: &Vector2<S>) -> Vector2<S> {
+        Self::to_inertial(eta, orientation)
     }
 }
 
@@ -56,6 +69,11 @@ impl Attitude for Spatial {
         let (z, x) = turn(eta[1], z, v.x);
         let (x, y) = turn(eta[2], x, y);
         Vector3::new(x, y, z)
+    }
+
+    #[inline]
+    fn orient<S: Scalar>(eta: &[S], orientation: &[Vector3<S>; 3]) -> [Vector3<S>; 3] {
+        orientation.map(|axis| Self::to_inertial(eta, &axis))
     }
 }
 

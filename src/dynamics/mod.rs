@@ -11,12 +11,14 @@
 //! | `mass_matrix` | the reduced inertia matrix H, eq. (6) |
 //! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
 //! | `attitude` | the rate map of the base attitude |
+//! | `end_effector` | pose of the end-effector frame |
 //!
 //! All vectors are in the axes of the base body, so that nothing depends on the base attitude.
 
 pub mod attitude;
 mod bias;
 mod data;
+mod end_effector;
 mod inertia;
 mod kinematics;
 mod ldl;

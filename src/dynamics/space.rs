@@ -74,6 +74,19 @@ pub trait Space: Copy + Debug + Send + Sync + 'static {
         sin_cos: Option<(S, S)>,
         sign: f64,
     ) -> Self::Orientation<S>;
+    /// The constant orientation `fixed` of a frame in a body, in base axes.
+    fn attached<S: Scalar>(
+        body: &Self::Orientation<S>,
+        fixed: &Self::Orientation<f64>,
+    ) -> Self::Orientation<S>;
+    /// How far `orientation` is turned from the constant `goal`: sines of the angle about each
+    /// axis (one in the plane, three in space), then its cosine. All zero but a cosine of one
+    /// where they agree.
+    fn turn_between<S: Scalar>(
+        orientation: &Self::Orientation<S>,
+        goal: &Self::Orientation<f64>,
+        rows: &mut [S],
+    );
     /// A constant vector of the body in base axes.
     fn rotated<S: Scalar>(
         orientation: &Self::Orientation<S>,
@@ -139,6 +152,15 @@ impl Space for Planar {
             }
             None => *parent,
         }
+    }
+    #[inline]
+    fn attached<S: Scalar>(body: &Vector2<S>, fixed: &Vector2<f64>) -> Vector2<S> {
+        Self::rotated(body, fixed)
+    }
+    #[inline]
+    fn turn_between<S: Scalar>(o: &Vector2<S>, goal: &Vector2<f64>, rows: &mut [S]) {
+        rows[0] = o.y * goal.x - o.x * goal.y;
+        rows[1] = o.x * goal.x + o.y * goal.y;
     }
     #[inline]
     fn rotated<S: Scalar>(o: &Vector2<S>, v: &Vector2<f64>) -> Vector2<S> {
@@ -239,6 +261,19 @@ impl Space for Spatial {
             }
             None => [x, y, z],
         }
+    }
+    #[inline]
+    fn attached<S: Scalar>(body: &[Vector3<S>; 3], fixed: &[Vector3<f64>; 3]) -> [Vector3<S>; 3] {
+        [0, 1, 2].map(|i| Self::rotated(body, &fixed[i]))
+    }
+    #[inline]
+    fn turn_between<S: Scalar>(o: &[Vector3<S>; 3], goal: &[Vector3<f64>; 3], rows: &mut [S]) {
+        // E = Gᵀ O: the vector part of its skew half is sin(angle)·axis, its trace 1 + 2 cos.
+        let e = |i: usize, j: usize| o[j].x * goal[i].x + o[j].y * goal[i].y + o[j].z * goal[i].z;
+        rows[0] = (e(2, 1) - e(1, 2)) * 0.5;
+        rows[1] = (e(0, 2) - e(2, 0)) * 0.5;
+        rows[2] = (e(1, 0) - e(0, 1)) * 0.5;
+        rows[3] = (e(0, 0) + e(1, 1) + e(2, 2) - 1.0) * 0.5;
     }
     #[inline]
     fn rotated<S: Scalar>(o: &[Vector3<S>; 3], v: &Vector3<f64>) -> Vector3<S> {

@@ -1,5 +1,6 @@
 //! A model compiled for evaluation: only what the recursions read, in aligned frames.
 
+use super::end_effector::Mount;
 use super::planarity::zero_poses;
 use super::space::{Planar, Space, Spatial, Symmetric};
 use super::{Inertia, JointKind, Model};
@@ -33,6 +34,7 @@ pub struct Tree<Sp: Space> {
     pub(super) base_center: Sp::Linear<f64>,
     pub(super) base_inertia: Sp::Inertia<f64>,
     pub(super) total_mass: f64,
+    pub(super) mount: Option<Mount<Sp>>,
 }
 
 impl<Sp: Space> Tree<Sp> {
@@ -51,6 +53,7 @@ impl<Sp: Space> Tree<Sp> {
         base_mass: f64,
         base_center: Sp::Linear<f64>,
         base_inertia: Sp::Inertia<f64>,
+        mount: Option<Mount<Sp>>,
     ) -> Self {
         for j in (0..links.len()).rev() {
             if let Some(parent) = links[j].parent {
@@ -69,6 +72,7 @@ impl<Sp: Space> Tree<Sp> {
             base_center,
             base_inertia,
             total_mass,
+            mount,
         }
     }
 }
@@ -107,12 +111,14 @@ impl Tree<Planar> {
                 }
             })
             .collect();
+        let rotations: Vec<Matrix3<f64>> = poses.iter().map(|(rotation, _)| *rotation).collect();
         let base = &model.base().inertia;
         Some(Self::assemble(
             links,
             base.mass(),
             flat(*base.center()),
             about_normal(base),
+            Mount::planar(model, &basis, &rotations),
         ))
     }
 }
@@ -166,6 +172,7 @@ impl Tree<Spatial> {
             base.mass(),
             *base.center(),
             Symmetric::from_matrix(base.rotational()),
+            Mount::spatial(model, &alignment),
         )
     }
 }

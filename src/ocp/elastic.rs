@@ -14,6 +14,8 @@ pub enum Limited {
     Control(usize),
     /// The bounds of a path row.
     Path(usize),
+    /// The bounds of a boundary row.
+    Boundary(usize),
 }
 
 /// Bounds that belong to one limit of the problem and give way together.
@@ -40,7 +42,14 @@ pub struct Elastic<'a, O> {
     base: Formulation,
     /// Path rows beyond the inner ones: (bound, group, interval).
     path: Vec<(Limited, usize, Interval)>,
-    boundary: Vec<(usize, usize, Interval)>,
+    boundary: Vec<(End, usize, Interval)>,
+}
+
+/// What an elastic boundary row bounds.
+#[derive(Debug, Clone, Copy)]
+enum End {
+    State(usize),
+    Row(usize),
 }
 
 impl<'a, O: Ocp> Elastic<'a, O> {
@@ -56,13 +65,19 @@ impl<'a, O: Ocp> Elastic<'a, O> {
                         // The path rows do not reach t_f, which is a node but no point.
                         let bounds = base.states[i].bounds;
                         if !base.terminal[i].is_fixed() {
-                            boundary.push((i, g, bounds));
+                            boundary.push((End::State(i), g, bounds));
                         }
                         &mut base.states[i].bounds
                     }
                     Limited::Terminal(i) => {
-                        boundary.push((i, g, base.terminal[i]));
+                        boundary.push((End::State(i), g, base.terminal[i]));
                         base.terminal[i] = Interval::FREE;
+                        continue;
+                    }
+                    Limited::Boundary(b) => {
+                        let bounds =
+                            std::mem::replace(&mut base.boundary[b].bounds, Interval::FREE);
+                        boundary.push((End::Row(b), g, bounds));
                         continue;
                     }
                     Limited::Control(i) => &mut base.controls[i].bounds,
@@ -125,13 +140,16 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
                 Limited::State(i) | Limited::Terminal(i) => &self.base.states[i].name,
                 Limited::Control(i) => &self.base.controls[i].name,
                 Limited::Path(i) => &self.base.path[i].name,
+                Limited::Boundary(i) => &self.base.boundary[i].name,
             };
             formulation.path.extend(self.rows(name, group, bounds));
         }
-        for &(i, group, bounds) in &self.boundary {
-            formulation
-                .boundary
-                .extend(self.rows(&self.base.states[i].name, group, bounds));
+        for &(end, group, bounds) in &self.boundary {
+            let name = match end {
+                End::State(i) => &self.base.states[i].name,
+                End::Row(b) => &self.base.boundary[b].name,
+            };
+            formulation.boundary.extend(self.rows(name, group, bounds));
         }
         for group in &self.groups {
             let amount = Interval::new(0.0, f64::INFINITY);
@@ -175,6 +193,7 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
                 Limited::State(i) | Limited::Terminal(i) => x[i],
                 Limited::Control(i) => point.u[i],
                 Limited::Path(i) => scratch.path[i],
+                Limited::Boundary(_) => unreachable!("boundary rows are not path rows"),
             };
             let room = amounts[group] * self.groups[group].scale;
             rows[0] = value - room;
@@ -201,10 +220,14 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
             .inner
             .boundary(inner_ends, &mut scratch.inner, inner_rows)
             * self.regularization;
-        for (rows, &(i, group, _)) in elastic_rows.chunks_exact_mut(2).zip(&self.boundary) {
+        for (rows, &(end, group, _)) in elastic_rows.chunks_exact_mut(2).zip(&self.boundary) {
+            let value = match end {
+                End::State(i) => x[i],
+                End::Row(b) => inner_rows[b],
+            };
             let room = amounts[group] * self.groups[group].scale;
-            rows[0] = x[i] - room;
-            rows[1] = x[i] + room;
+            rows[0] = value - room;
+            rows[1] = value + room;
         }
         for &amount in amounts {
             cost += amount;

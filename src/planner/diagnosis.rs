@@ -289,6 +289,7 @@ fn findings<Sp: Attitude>(
         .collect();
     let last = &state_rows[state_rows.len() - 1];
     let rate_rows = system.limits_base_rate();
+    let end_rows = system.end_rows(trajectory);
     let mut limits = Vec::new();
     for group in groups {
         for &member in &group.members {
@@ -317,6 +318,15 @@ fn findings<Sp: Attitude>(
                         &control.name,
                         control.bounds,
                         column(&planned.control, j),
+                    )
+                }
+                Limited::Boundary(b) => {
+                    let row = &formulation.boundary[b];
+                    (
+                        "task.final.end_effector",
+                        &row.name,
+                        row.bounds,
+                        vec![end_rows[b]],
                     )
                 }
                 Limited::Path(p) => {
@@ -351,7 +361,12 @@ fn findings<Sp: Attitude>(
                 limits.push(LimitFinding {
                     key: key.into(),
                     component: component.clone(),
-                    unit: unit(problem, key, member_joint(member, Sp::ANGLES, n, rate_rows)),
+                    unit: unit(
+                        problem,
+                        key,
+                        component,
+                        member_joint(member, Sp::ANGLES, n, rate_rows),
+                    ),
                     bound,
                     excess,
                     smallest_bound: widened(bound, reached),
@@ -408,10 +423,15 @@ fn member_joint(member: Limited, angles: usize, n: usize, rate_rows: bool) -> Op
         Limited::Control(j) => Some(j),
         Limited::Path(p) if rate_rows => p.checked_sub(angles),
         Limited::Path(p) => Some(p),
+        Limited::Boundary(_) => None,
     }
 }
 
-fn unit(problem: &Problem, key: &str, joint: Option<usize>) -> &'static str {
+fn unit(problem: &Problem, key: &str, component: &str, joint: Option<usize>) -> &'static str {
+    if key == "task.final.end_effector" {
+        // Turns are bounded by their sines.
+        return if component.contains("turn") { "1" } else { "m" };
+    }
     let slides = joint.is_some_and(|j| problem.robot.joints()[j].kind == JointKind::Prismatic);
     match (key, slides) {
         ("limits.torque", false) => "N·m",

@@ -1,11 +1,13 @@
 //! The free-floating manipulator as an optimal control problem, eq. (7) to (18).
 
 use super::Problem;
+use super::goal::GoalRows;
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::{Attitude, base_position};
 use crate::dynamics::space::{Planar, Spatial, Vector};
 use crate::dynamics::{Data, Tree};
 use crate::ocp::{Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Point, Quantity};
+use crate::transcription::Discretization;
 
 /// States x = [η, θ, θ̇], controls u = H⁻¹τ.
 ///
@@ -20,6 +22,7 @@ pub struct FreeFloating<Sp: Attitude> {
     rate_rows: bool,
     torque_rows: bool,
     torque_cost: bool,
+    goal: Option<GoalRows<Sp>>,
 }
 
 impl FreeFloating<Planar> {
@@ -46,10 +49,16 @@ impl<Sp: Attitude> FreeFloating<Sp> {
         tree.kinematics(&problem.task.initial_joints, &mut data);
         tree.momentum(&mut data);
         let level = vec![0.0; Sp::ANGLES];
+        let start_position = base_position::<Sp, f64>(&level, &data.system_center);
+        let goal = problem.task.end_effector.as_ref();
+        let goal = goal.map(|goal| GoalRows::new(goal, start_position));
+        let mut formulation = formulation::<Sp>(problem, rate_rows, torque_rows);
+        formulation.boundary = goal.iter().flat_map(GoalRows::quantities).collect();
         Self {
-            formulation: formulation::<Sp>(problem, rate_rows, torque_rows),
+            formulation,
             cost: problem.cost.clone(),
-            start_position: base_position::<Sp, f64>(&level, &data.system_center),
+            start_position,
+            goal,
             rate_rows,
             torque_rows,
             torque_cost: problem.cost.torque.iter().any(|w| *w > 0.0),
@@ -70,6 +79,18 @@ impl<Sp: Attitude> FreeFloating<Sp> {
     /// Whether the first path rows are the rates η̇.
     pub fn limits_base_rate(&self) -> bool {
         self.rate_rows
+    }
+
+    /// Values of the boundary rows at the ends of `trajectory`.
+    pub fn end_rows(&self, trajectory: &Discretization) -> Vec<f64> {
+        let mut rows = vec![0.0; self.formulation.boundary.len()];
+        let ends = Ends {
+            initial: trajectory.state(0),
+            terminal: trajectory.state(trajectory.mesh.points()),
+            duration: trajectory.duration,
+        };
+        self.boundary(ends, &mut self.scratch::<f64>(), &mut rows);
+        rows
     }
 
     /// Limits that may be what makes the problem infeasible, each with its key in the problem
@@ -122,6 +143,21 @@ impl<Sp: Attitude> FreeFloating<Sp> {
                 push(state.name.clone(), vec![Limited::State(i)], &state.bounds);
             }
         }
+        for (b, row) in self.formulation.boundary.iter().enumerate() {
+            // Allowed distances are small; a tenth of a metre or radian counts as one.
+            groups.push(LimitGroup {
+                name: row.name.clone(),
+                members: vec![Limited::Boundary(b)],
+                scale: 0.1,
+            });
+        }
+        let mut push = |name: String, members: Vec<Limited>, bounds: &Interval| {
+            groups.push(LimitGroup {
+                name,
+                members,
+                scale: scale(bounds),
+            });
+        };
         for (j, control) in self.formulation.controls.iter().enumerate() {
             if !control.bounds.is_free() {
                 push(
@@ -180,7 +216,11 @@ fn formulation<Sp: Attitude>(problem: &Problem, rate_rows: bool, torque_rows: bo
         .concat(),
         terminal: [
             limits.final_base_attitude.clone(),
-            fixed(&task.final_joints),
+            fixed(&task.final_joints)
+                .into_iter()
+                .zip(&task.free_joints)
+                .map(|(at, &free)| if free { Interval::FREE } else { at })
+                .collect(),
             fixed(&rest),
         ]
         .concat(),
@@ -262,14 +302,23 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         &self,
         ends: Ends<'_, S>,
         scratch: &mut Scratch<Sp, S>,
-        _rows: &mut [S],
+        rows: &mut [S],
     ) -> S {
         let (eta, joints) = ends.terminal.split_at(Sp::ANGLES);
         let mut cost = weighted_squares(&self.cost.final_base_attitude, eta);
-        if self.cost.final_base_position.iter().any(|w| *w > 0.0) {
-            let data = &mut scratch.data;
+        if self.cost.duration > 0.0 {
+            cost += ends.duration * self.cost.duration;
+        }
+        let data = &mut scratch.data;
+        let placed = self.cost.final_base_position.iter().any(|w| *w > 0.0);
+        if placed || self.goal.is_some() {
             self.tree.kinematics(&joints[..self.joint_count()], data);
             self.tree.momentum(data);
+        }
+        if let (Some(goal), Some(pose)) = (&self.goal, self.tree.end_effector(data)) {
+            goal.values(eta, pose, &data.system_center, rows);
+        }
+        if placed {
             let end = base_position::<Sp, S>(eta, &data.system_center);
             let weights = &self.cost.final_base_position;
             let start = self.start_position.components();

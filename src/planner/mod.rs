@@ -3,6 +3,7 @@
 mod diagnosis;
 mod event;
 mod free_floating;
+mod goal;
 mod guess;
 mod plan;
 mod problem;
@@ -13,6 +14,7 @@ mod trajectory;
 pub use crate::refine::Start;
 pub use event::Event;
 pub use free_floating::FreeFloating;
+pub use goal::{EndEffectorGoal, GoalFrame};
 pub use plan::{Diagnosis, LimitFinding, Metrics, Plan, Status, Timing, Trajectory};
 pub use problem::{Cost, Limits, Problem, ProblemError, Task};
 pub use radau::{PlanError, Planner, plan};

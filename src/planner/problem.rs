@@ -1,5 +1,6 @@
 //! A planning problem: robot, task, limits, cost and mesh, eq. (7) to (18).
 
+use super::EndEffectorGoal;
 use crate::dynamics::space::{Planar, Space, Spatial};
 use crate::dynamics::{JointKind, Model};
 use crate::nlp;
@@ -17,6 +18,11 @@ pub struct Task {
     pub initial_rates: Vec<f64>,
     /// Joint positions at t_f, rad or m; length n. The arm comes to rest there, eq. (13).
     pub final_joints: Vec<f64>,
+    /// Joints whose position at t_f is for the planner to find, length n; `final_joints` is then
+    /// where the search begins. Only with an end-effector goal.
+    pub free_joints: Vec<bool>,
+    /// Where the end effector is to be at t_f.
+    pub end_effector: Option<EndEffectorGoal>,
 }
 
 /// Limits (8) to (11). Free intervals where there is none.
@@ -53,6 +59,8 @@ pub struct Cost {
     pub control: Vec<f64>,
     /// ∫‖τ‖² dt, one weight a joint.
     pub torque: Vec<f64>,
+    /// The duration t_f itself, where it is free; 1/s.
+    pub duration: f64,
     /// Λ of (14) as a full matrix over [η̇, θ̇], by rows, added to the weights above; symmetric.
     pub rate_matrix: Option<Vec<Vec<f64>>>,
 }
@@ -114,6 +122,8 @@ impl Problem {
                 initial_joints: initial.into(),
                 initial_rates: vec![0.0; n],
                 final_joints: goal.into(),
+                free_joints: vec![false; n],
+                end_effector: None,
             },
             limits: Limits {
                 joint_position: joints
@@ -140,6 +150,7 @@ impl Problem {
                 joint_rate: vec![0.0; n],
                 control: vec![0.0; n],
                 torque: vec![0.0; n],
+                duration: 0.0,
                 rate_matrix: None,
             },
             mesh: refine::Settings::default(),
@@ -182,6 +193,7 @@ impl Problem {
                 }
             }
         }
+        self.validate_goal(n, angles, lengths)?;
         let limits = &self.limits;
         for (key, bounds, expected, what) in [
             ("limits.joint_position", &limits.joint_position, n, "joints"),
@@ -223,6 +235,55 @@ impl Problem {
             .map_err(|(key, found, expected)| error(format!("mesh.{key}"), found, expected))
     }
 
+    fn validate_goal(&self, n: usize, angles: usize, lengths: usize) -> Result<(), ProblemError> {
+        let task = &self.task;
+        count("task.final.free", task.free_joints.len(), n, "joints")?;
+        let Some(goal) = &task.end_effector else {
+            if task.free_joints.contains(&true) {
+                let expected = "a position for every joint, or a goal for the end effector";
+                return Err(error(
+                    "task.final.joints",
+                    "some joints left free",
+                    expected,
+                ));
+            }
+            return Ok(());
+        };
+        const KEY: &str = "task.final.end_effector";
+        if self.robot.end_effector().is_none() {
+            let expected = "a robot with an end effector";
+            return Err(error(KEY, "a goal for the end effector", expected));
+        }
+        if goal.position.is_none() && goal.orientation.is_none() {
+            return Err(error(KEY, "neither", "a position, an orientation or both"));
+        }
+        for (name, values, size, what) in [
+            ("position", &goal.position, lengths, "base lengths"),
+            ("orientation", &goal.orientation, angles, "base angles"),
+        ] {
+            let key = format!("{KEY}.{name}");
+            if let Some(values) = values {
+                count(&key, values.len(), size, what)?;
+                for (i, value) in values.iter().enumerate() {
+                    if !value.is_finite() {
+                        return Err(error(indexed(&key, i, size), value, "a finite number"));
+                    }
+                }
+            }
+        }
+        let room = goal.position_tolerance;
+        if !(room.is_finite() && room >= 0.0) {
+            let key = format!("{KEY}.position_tolerance");
+            return Err(error(key, room, "a finite length, m, zero or above"));
+        }
+        let room = goal.orientation_tolerance;
+        if !(0.0..1.5).contains(&room) {
+            let key = format!("{KEY}.orientation_tolerance");
+            return Err(error(key, room, "an angle from 0 to below 1.5 rad"));
+        }
+        Ok(())
+    }
+
     fn validate_ends(&self, n: usize) -> Result<(), ProblemError> {
         let (task, limits) = (&self.task, &self.limits);
         for (key, values, bounds, limit) in [
@@ -246,7 +307,8 @@ impl Problem {
             ),
         ] {
             for (i, (value, bound)) in values.iter().zip(bounds).enumerate() {
-                if bound.violation(*value) > 0.0 {
+                let sought = key == "task.final.joints" && task.free_joints[i];
+                if !sought && bound.violation(*value) > 0.0 {
                     let joint = &self.robot.joints()[i];
                     let unit = match joint.kind {
                         JointKind::Revolute => "rad",
@@ -290,6 +352,13 @@ impl Problem {
                     return Err(error(key, weight, "a finite weight, zero or above"));
                 }
             }
+        }
+        if !(cost.duration.is_finite() && cost.duration >= 0.0) {
+            return Err(error(
+                "cost.duration",
+                cost.duration,
+                "a finite weight, zero or above",
+            ));
         }
         let Some(matrix) = &cost.rate_matrix else {
             return Ok(());

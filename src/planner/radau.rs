@@ -229,6 +229,8 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
     a.robot == b.robot
         && weights(a) == weights(b)
         && a.cost.rate_matrix == b.cost.rate_matrix
+        && (a.cost.duration == 0.0) == (b.cost.duration == 0.0)
+        && a.task.end_effector == b.task.end_effector
         && limited(a) == limited(b)
         && a.task.duration.is_fixed() == b.task.duration.is_fixed()
 }

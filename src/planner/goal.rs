@@ -1,0 +1,142 @@
+//! Task-space goals: where the end effector is to be at t_f.
+
+use crate::autodiff::Scalar;
+use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::Vector;
+use crate::ocp::{Interval, Quantity};
+
+/// The frame a task-space goal is given in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GoalFrame {
+    /// Inertial axes, origin at the system's mass centre (Remark 1).
+    Inertial,
+    /// The base frame as it is at t₀, fixed in inertial space from then on.
+    Start,
+    /// The base frame as it is at t_f.
+    Base,
+}
+
+impl GoalFrame {
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inertial => "inertial",
+            Self::Start => "start",
+            Self::Base => "base",
+        }
+    }
+}
+
+/// Position, orientation or both of the end-effector frame at t_f.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndEffectorGoal {
+    /// The frame that position and orientation are given in.
+    pub frame: GoalFrame,
+    /// Position, m: two lengths in the plane, three in space.
+    pub position: Option<Vec<f64>>,
+    /// Allowed distance from the position along each axis, m; 0 for exactly there.
+    pub position_tolerance: f64,
+    /// Orientation, rad: the heading of the frame's x axis in the plane, roll-pitch-yaw in space.
+    pub orientation: Option<Vec<f64>>,
+    /// Allowed angle from the orientation about each axis, rad, below π/2; 0 for exactly so.
+    pub orientation_tolerance: f64,
+}
+
+impl EndEffectorGoal {
+    /// Exactly at `position` (m), whatever the orientation.
+    pub fn at(frame: GoalFrame, position: &[f64]) -> Self {
+        Self {
+            frame,
+            position: Some(position.into()),
+            position_tolerance: 0.0,
+            orientation: None,
+            orientation_tolerance: 0.0,
+        }
+    }
+}
+
+/// The boundary rows of a goal.
+#[derive(Debug, Clone)]
+pub(super) struct GoalRows<Sp: Attitude> {
+    goal: EndEffectorGoal,
+    orientation: Option<Sp::Orientation<f64>>,
+    /// Base position at t₀, inertial.
+    start: Sp::Linear<f64>,
+}
+
+impl<Sp: Attitude> GoalRows<Sp> {
+    pub fn new(goal: &EndEffectorGoal, start: Sp::Linear<f64>) -> Self {
+        Self {
+            orientation: goal.orientation.as_deref().map(Sp::orientation),
+            goal: goal.clone(),
+            start,
+        }
+    }
+
+    /// Names and bounds: position along each axis, sines of the turn about each axis, its cosine.
+    pub fn quantities(&self) -> Vec<Quantity> {
+        let mut rows = Vec::new();
+        for (axis, &value) in ["x", "y", "z"]
+            .iter()
+            .zip(self.goal.position.iter().flatten())
+        {
+            let room = self.goal.position_tolerance;
+            let bounds = Interval::new(value - room, value + room);
+            rows.push(Quantity::new(format!("end effector {axis}"), bounds));
+        }
+        if self.orientation.is_some() {
+            let sine = self.goal.orientation_tolerance.sin();
+            let axes: &[&str] = if Sp::ANGLES == 1 {
+                &["heading"]
+            } else {
+                &["x", "y", "z"]
+            };
+            rows.extend(axes.iter().map(|axis| {
+                let name = format!("end effector turn, {axis}");
+                Quantity::new(name, Interval::symmetric(sine))
+            }));
+            // The sines vanish at half a turn as well.
+            let cosine = Interval::new(0.0, f64::INFINITY);
+            rows.push(Quantity::new("end effector not turned over", cosine));
+        }
+        rows
+    }
+
+    /// The rows' values for the base attitude, the end effector's pose in the base frame and the
+    /// system's mass centre.
+    pub fn values<S: Scalar>(
+        &self,
+        eta: &[S],
+        (orientation, position): (Sp::Orientation<S>, Sp::Linear<S>),
+        system_center: &Sp::Linear<S>,
+        rows: &mut [S],
+    ) {
+        let lengths = if self.goal.position.is_some() {
+            Sp::LENGTHS
+        } else {
+            0
+        };
+        let (at, turned) = rows.split_at_mut(lengths);
+        if lengths > 0 {
+            let seen = match self.goal.frame {
+                GoalFrame::Base => position,
+                GoalFrame::Inertial | GoalFrame::Start => {
+                    Sp::to_inertial(eta, &(position - *system_center))
+                }
+            };
+            at.copy_from_slice(seen.components());
+            if self.goal.frame == GoalFrame::Start {
+                for (value, &origin) in at.iter_mut().zip(self.start.components()) {
+                    *value = *value - origin;
+                }
+            }
+        }
+        if let Some(goal) = &self.orientation {
+            let seen = match self.goal.frame {
+                GoalFrame::Base => orientation,
+                GoalFrame::Inertial | GoalFrame::Start => Sp::orient(eta, &orientation),
+            };
+            Sp::turn_between(&seen, goal, turned);
+        }
+    }
+}
