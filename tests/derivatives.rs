@@ -369,6 +369,25 @@ fn task_space_goals() {
 }
 
 #[test]
+fn a_system_that_drifts_and_tumbles() {
+    for robot in [problems::two_link(), trees::chain(3, 6)] {
+        let mut problem = with_goal(loaded(robot), GoalFrame::Inertial);
+        let momentum = &mut problem.task.initial_momentum;
+        momentum
+            .linear
+            .iter_mut()
+            .enumerate()
+            .for_each(|(i, p)| *p = 0.4 - 0.3 * i as f64);
+        momentum
+            .angular
+            .iter_mut()
+            .enumerate()
+            .for_each(|(i, l)| *l = 0.2 + 0.1 * i as f64);
+        check_problem(&problem, Mesh::uniform(1, 2).unwrap());
+    }
+}
+
+#[test]
 fn three_joints_in_space() {
     check_problem(&loaded(trees::chain(3, 3)), small());
 }

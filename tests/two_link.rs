@@ -119,6 +119,7 @@ fn both_forms_of_the_dynamics_plan_the_same() {
     problem.limits.base_attitude = spatial.limits.base_attitude;
     problem.limits.final_base_attitude = spatial.limits.final_base_attitude;
     problem.limits.base_rate = spatial.limits.base_rate;
+    problem.task.initial_momentum = spatial.task.initial_momentum;
     let space = plan(&problem).unwrap();
     assert_eq!(space.status, Status::Solved);
     assert!((plane.objective - space.objective).abs() < 1e-9);

@@ -26,10 +26,6 @@ pub(super) fn end_effector(
     let frame = frames.into_iter().find(|frame| frame.name() == name);
     let frame = frame.ok_or_else(|| item.error(quoted(name), expected))?;
     let vector = |name: &str, components: &Components| match section.get(name) {
-        // A single angle needs no brackets.
-        Some(item) if components.names.len() == 1 && item.as_number().is_some() => {
-            Ok(Some(vec![item.number("a finite number")?]))
-        }
         Some(item) => components.vector(item).map(Some),
         None => Ok(None),
     };

@@ -7,7 +7,7 @@ use super::item::Item;
 use super::values::Components;
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
-use crate::planner::{Cost, Limits, Task};
+use crate::planner::{Cost, Limits, Momentum, Task};
 use crate::refine::{self, Method};
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish.
@@ -24,9 +24,12 @@ pub(super) fn task(
 ) -> Result<Task, ConfigError> {
     let section = item.section(&["duration", "initial", "final"])?;
     let expected = "a table with joints, the joint positions at the start";
-    let initial = section
-        .require("initial", expected)?
-        .section(&["joints", "rates"])?;
+    let initial = section.require("initial", expected)?.section(&[
+        "joints",
+        "rates",
+        "linear_momentum",
+        "angular_momentum",
+    ])?;
     let expected = "a table with joints, the joint positions at the end, or end_effector";
     let goal = section
         .require("final", expected)?
@@ -46,15 +49,24 @@ pub(super) fn task(
     };
     Ok(Task {
         duration: duration(section.require("duration", DURATION)?)?,
-        initial_rates: match initial.get("rates") {
-            Some(rates) => joints.vector(rates)?,
-            None => vec![0.0; joints.names.len()],
+        initial_rates: or_zero(initial.get("rates"), joints)?,
+        initial_momentum: Momentum {
+            linear: or_zero(initial.get("linear_momentum"), lengths)?,
+            angular: or_zero(initial.get("angular_momentum"), angles)?,
         },
         initial_joints,
         final_joints,
         free_joints,
         end_effector,
     })
+}
+
+/// One number a component, zero where the key is left out.
+fn or_zero(item: Option<&Item<'_>>, components: &Components) -> Result<Vec<f64>, ConfigError> {
+    match item {
+        Some(item) => components.vector(item),
+        None => Ok(vec![0.0; components.names.len()]),
+    }
 }
 
 const DURATION: &str = "a finite duration above zero, s, or { min = …, max = … }";

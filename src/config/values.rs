@@ -95,6 +95,10 @@ impl Components {
     pub(super) fn vector(&self, item: &Item<'_>) -> Result<Vec<f64>, ConfigError> {
         let expected = format!("an array of {}", self.one_each());
         let finite = |item: &Item<'_>| item.number("a finite number");
+        // A single component needs no brackets.
+        if self.len() == 1 && item.as_number().is_some() {
+            return Ok(vec![finite(item)?]);
+        }
         if let Some(elements) = item.as_elements() {
             return self.elements(item, elements)?.iter().map(finite).collect();
         }

@@ -15,6 +15,9 @@ pub trait Attitude: Space {
     /// A vector in base axes, turned to inertial axes.
     fn to_inertial<S: Scalar>(eta: &[S], v: &Self::Linear<S>) -> Self::Linear<S>;
 
+    /// A constant angular vector in inertial axes, turned to base axes.
+    fn to_base<S: Scalar>(eta: &[S], v: &Self::Angular<f64>) -> Self::Angular<S>;
+
     /// An orientation in base axes, turned to inertial axes.
     fn orient<S: Scalar>(eta: &[S], orientation: &Self::Orientation<S>) -> Self::Orientation<S>;
 
@@ -36,6 +39,11 @@ impl Attitude for Planar {
     fn to_inertial<S: Scalar>(eta: &[S], v: &Vector2<S>) -> Vector2<S> {
         let (s, c) = eta[0].sin_cos();
         Vector2::new(c * v.x - s * v.y, s * v.x + c * v.y)
+    }
+
+    #[inline]
+    fn to_base<S: Scalar>(_eta: &[S], v: &Vector1<f64>) -> Vector1<S> {
+        v.map(S::constant)
     }
 
     #[inline]
@@ -69,6 +77,14 @@ impl Attitude for Spatial {
         let (z, x) = turn(eta[1], z, v.x);
         let (x, y) = turn(eta[2], x, y);
         Vector3::new(x, y, z)
+    }
+
+    #[inline]
+    fn to_base<S: Scalar>(eta: &[S], v: &Vector3<f64>) -> Vector3<S> {
+        // A row of Rᵀv is the inner product of v with a base axis in inertial axes.
+        let axes = Self::orient(eta, &Self::aligned());
+        let v = v.map(S::constant);
+        Vector3::from_fn(|i, _| Vector::dot(&axes[i], &v))
     }
 
     #[inline]

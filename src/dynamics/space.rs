@@ -11,6 +11,8 @@ pub trait Vector<S: Scalar>:
 {
     /// The zero vector.
     fn zero() -> Self;
+    /// From its components.
+    fn from_components(components: &[S]) -> Self;
     /// Inner product.
     fn dot(&self, other: &Self) -> S;
     /// Every component times `factor`.
@@ -19,12 +21,18 @@ pub trait Vector<S: Scalar>:
     fn times(&self, factor: f64) -> Self;
     /// Components.
     fn components(&self) -> &[S];
+    /// Components, to be changed.
+    fn components_mut(&mut self) -> &mut [S];
 }
 
 impl<S: Scalar, const N: usize> Vector<S> for SVector<S, N> {
     #[inline]
     fn zero() -> Self {
         Self::from_element(S::zero())
+    }
+    #[inline]
+    fn from_components(components: &[S]) -> Self {
+        Self::from_column_slice(components)
     }
     #[inline]
     fn dot(&self, other: &Self) -> S {
@@ -45,6 +53,10 @@ impl<S: Scalar, const N: usize> Vector<S> for SVector<S, N> {
     #[inline]
     fn components(&self) -> &[S] {
         self.as_slice()
+    }
+    #[inline]
+    fn components_mut(&mut self) -> &mut [S] {
+        self.as_mut_slice()
     }
 }
 

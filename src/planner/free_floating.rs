@@ -2,6 +2,7 @@
 
 use super::Problem;
 use super::goal::GoalRows;
+use super::momentum::Drift;
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::{Attitude, base_position};
 use crate::dynamics::space::{Planar, Spatial, Vector};
@@ -23,6 +24,7 @@ pub struct FreeFloating<Sp: Attitude> {
     torque_rows: bool,
     torque_cost: bool,
     goal: Option<GoalRows<Sp>>,
+    drift: Drift<Sp>,
 }
 
 impl FreeFloating<Planar> {
@@ -59,6 +61,7 @@ impl<Sp: Attitude> FreeFloating<Sp> {
             cost: problem.cost.clone(),
             start_position,
             goal,
+            drift: Drift::new(&problem.task.initial_momentum, tree.total_mass()),
             rate_rows,
             torque_rows,
             torque_cost: problem.cost.torque.iter().any(|w| *w > 0.0),
@@ -69,6 +72,18 @@ impl<Sp: Attitude> FreeFloating<Sp> {
     /// The dynamics behind the problem.
     pub fn tree(&self) -> &Tree<Sp> {
         &self.tree
+    }
+
+    /// The base's angular velocity for the joint rates and the system's momentum, into `data`;
+    /// needs [`Tree::momentum`].
+    pub fn base_rate<S: Scalar>(&self, eta: &[S], dtheta: &[S], data: &mut Data<Sp, S>) {
+        self.tree.base_rate(dtheta, data);
+        self.drift.tumble(eta, data);
+    }
+
+    /// Moves an inertial position with the system's mass centre, `t` seconds after t₀.
+    pub fn carry<S: Scalar>(&self, t: S, position: &mut [S]) {
+        self.drift.carry(t, position);
     }
 
     /// Number of joints n.
@@ -267,7 +282,7 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         let data = &mut scratch.data;
         self.tree.kinematics(theta, data);
         self.tree.momentum(data);
-        self.tree.base_rate(dtheta, data);
+        self.base_rate(eta, dtheta, data);
         self.tree.mass_matrix(data);
         self.tree.bias(dtheta, data);
         data.factors.factor(&data.mass_matrix);
@@ -316,10 +331,12 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
             self.tree.momentum(data);
         }
         if let (Some(goal), Some(pose)) = (&self.goal, self.tree.end_effector(data)) {
-            goal.values(eta, pose, &data.system_center, rows);
+            let carry = |position: &mut [S]| self.drift.carry(ends.duration, position);
+            goal.values(eta, pose, &data.system_center, carry, rows);
         }
         if placed {
-            let end = base_position::<Sp, S>(eta, &data.system_center);
+            let mut end = base_position::<Sp, S>(eta, &data.system_center);
+            self.drift.carry(ends.duration, end.components_mut());
             let weights = &self.cost.final_base_position;
             let start = self.start_position.components();
             for ((&weight, &z), &z0) in weights.iter().zip(end.components()).zip(start) {

@@ -8,7 +8,7 @@ use crate::ocp::{Interval, Quantity};
 /// The frame a task-space goal is given in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GoalFrame {
-    /// Inertial axes, origin at the system's mass centre (Remark 1).
+    /// Inertial axes, origin where the system's mass centre is at t₀ (Remark 1).
     Inertial,
     /// The base frame as it is at t₀, fixed in inertial space from then on.
     Start,
@@ -103,12 +103,13 @@ impl<Sp: Attitude> GoalRows<Sp> {
     }
 
     /// The rows' values for the base attitude, the end effector's pose in the base frame and the
-    /// system's mass centre.
+    /// system's mass centre; `carry` moves an inertial position with that mass centre.
     pub fn values<S: Scalar>(
         &self,
         eta: &[S],
         (orientation, position): (Sp::Orientation<S>, Sp::Linear<S>),
         system_center: &Sp::Linear<S>,
+        carry: impl Fn(&mut [S]),
         rows: &mut [S],
     ) {
         let lengths = if self.goal.position.is_some() {
@@ -125,6 +126,9 @@ impl<Sp: Attitude> GoalRows<Sp> {
                 }
             };
             at.copy_from_slice(seen.components());
+            if self.goal.frame != GoalFrame::Base {
+                carry(at);
+            }
             if self.goal.frame == GoalFrame::Start {
                 for (value, &origin) in at.iter_mut().zip(self.start.components()) {
                     *value = *value - origin;

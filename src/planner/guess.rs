@@ -69,7 +69,7 @@ pub(super) fn along<Sp: Attitude>(
     mesh: Mesh,
 ) -> Discretization {
     let n = problem.joint_count();
-    let attitude = follow(problem, path);
+    let attitude = follow(problem, duration, path);
     let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     Discretization::sample(mesh, duration, Sp::ANGLES + 2 * n, n, |fraction, x, u| {
         path.at_fraction(fraction, &mut q, &mut dq, &mut ddq);
@@ -87,32 +87,35 @@ pub(super) fn along<Sp: Attitude>(
     })
 }
 
-/// Base attitude on an even grid along the path, by the midpoint rule; independent of the time
-/// the motion takes.
-fn follow<Sp: Attitude>(problem: &FreeFloating<Sp>, path: &JointPath) -> Vec<Vec<f64>> {
+/// Base attitude on an even grid along the path, by the midpoint rule.
+fn follow<Sp: Attitude>(
+    problem: &FreeFloating<Sp>,
+    duration: f64,
+    path: &JointPath,
+) -> Vec<Vec<f64>> {
     let n = problem.joint_count();
     let tree = problem.tree();
     let mut data = Data::<Sp, f64>::new(tree);
     let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let mut rates = vec![0.0; Sp::ANGLES];
-    let mut middle = vec![0.0; Sp::ANGLES];
     let mut attitude = vec![vec![0.0; Sp::ANGLES]];
     for k in 0..STEPS {
         path.at_fraction((k as f64 + 0.5) / STEPS as f64, &mut q, &mut dq, &mut ddq);
         tree.kinematics(&q, &mut data);
         tree.momentum(&mut data);
-        tree.base_rate(&dq, &mut data);
+        dq.iter_mut().for_each(|rate| *rate /= duration);
         let eta = &attitude[k];
-        Sp::rates(eta, &data.base_rate, &mut rates);
-        for i in 0..Sp::ANGLES {
-            middle[i] = eta[i] + 0.5 * rates[i] / STEPS as f64;
-        }
-        Sp::rates(&middle, &data.base_rate, &mut rates);
-        let next = eta
-            .iter()
-            .zip(&rates)
-            .map(|(a, r)| a + r / STEPS as f64)
-            .collect();
+        let mut turn = |at: &[f64]| -> Vec<f64> {
+            problem.base_rate(at, &dq, &mut data);
+            Sp::rates(at, &data.base_rate, &mut rates);
+            rates
+                .iter()
+                .map(|rate| rate * duration / STEPS as f64)
+                .collect()
+        };
+        let half = turn(eta);
+        let middle: Vec<f64> = eta.iter().zip(&half).map(|(a, r)| a + 0.5 * r).collect();
+        let next = eta.iter().zip(turn(&middle)).map(|(a, r)| a + r).collect();
         attitude.push(next);
     }
     attitude

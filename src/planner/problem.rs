@@ -1,6 +1,6 @@
 //! A planning problem: robot, task, limits, cost and mesh, eq. (7) to (18).
 
-use super::EndEffectorGoal;
+use super::{EndEffectorGoal, Momentum};
 use crate::dynamics::space::{Planar, Space, Spatial};
 use crate::dynamics::{JointKind, Model};
 use crate::nlp;
@@ -16,6 +16,8 @@ pub struct Task {
     pub initial_joints: Vec<f64>,
     /// Joint rates at t₀, rad/s or m/s; length n.
     pub initial_rates: Vec<f64>,
+    /// Momentum of the whole system; zero in the paper.
+    pub initial_momentum: Momentum,
     /// Joint positions at t_f, rad or m; length n. The arm comes to rest there, eq. (13).
     pub final_joints: Vec<f64>,
     /// Joints whose position at t_f is for the planner to find, length n; `final_joints` is then
@@ -121,6 +123,7 @@ impl Problem {
                 duration: Interval::fixed(duration),
                 initial_joints: initial.into(),
                 initial_rates: vec![0.0; n],
+                initial_momentum: Momentum::zero(angles, lengths),
                 final_joints: goal.into(),
                 free_joints: vec![false; n],
                 end_effector: None,
@@ -190,6 +193,28 @@ impl Problem {
             for (i, value) in values.iter().enumerate() {
                 if !value.is_finite() {
                     return Err(error(indexed(key, i, n), value, "a finite number"));
+                }
+            }
+        }
+        let momentum = &task.initial_momentum;
+        for (key, values, size, what) in [
+            (
+                "task.initial.linear_momentum",
+                &momentum.linear,
+                lengths,
+                "base lengths",
+            ),
+            (
+                "task.initial.angular_momentum",
+                &momentum.angular,
+                angles,
+                "base angles",
+            ),
+        ] {
+            count(key, values.len(), size, what)?;
+            for (i, value) in values.iter().enumerate() {
+                if !value.is_finite() {
+                    return Err(error(indexed(key, i, size), value, "a finite number"));
                 }
             }
         }

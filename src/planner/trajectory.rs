@@ -38,13 +38,14 @@ pub(super) fn trajectory<Sp: Attitude>(
         }
         tree.kinematics(theta, &mut data);
         tree.momentum(&mut data);
-        tree.base_rate(dtheta, &mut data);
+        problem.base_rate(eta, dtheta, &mut data);
         tree.mass_matrix(&mut data);
         let mut rates = vec![0.0; Sp::ANGLES];
         Sp::rates(eta, &data.base_rate, &mut rates);
         let mut torque = vec![0.0; n];
         torques(&data.mass_matrix, &u, &mut torque);
-        let position = base_position::<Sp, f64>(eta, &data.system_center);
+        let mut position = base_position::<Sp, f64>(eta, &data.system_center);
+        problem.carry(out.t[k], position.components_mut());
         out.base_attitude.push(eta.to_vec());
         out.base_position.push(position.components().to_vec());
         out.base_rate.push(rates);

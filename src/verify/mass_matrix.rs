@@ -93,7 +93,20 @@ impl MassMatrix {
 
     /// The base's velocity and angular velocity for zero total momentum: H_bb ξ̇ = −H_bm θ̇.
     pub fn momentum_free(&self, dq: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
-        let mut twist = [0.0; BASE];
+        self.with_momentum(dq, &Vector3::zeros(), &Vector3::zeros())
+    }
+
+    /// The base's velocity and angular velocity for the given total momentum: `linear` (kg m/s)
+    /// and `angular` about the base's origin (kg m²/s), in the axes the matrix is in.
+    pub fn with_momentum(
+        &self,
+        dq: &[f64],
+        linear: &Vector3<f64>,
+        angular: &Vector3<f64>,
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let mut twist = [
+            linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
+        ];
         for (row, sum) in twist.iter_mut().enumerate() {
             for (j, rate) in dq.iter().enumerate() {
                 *sum -= self.matrix[(BASE + j, row)] * rate;

@@ -39,9 +39,9 @@ pub struct Verification {
     pub replay_base_attitude_drift: f64,
     /// Base position where the joints are made to follow the planned path, m.
     pub replay_base_position_drift: f64,
-    /// Largest linear momentum, kg m/s.
+    /// Largest departure of the linear momentum from what it was at t₀, kg m/s.
     pub max_linear_momentum: f64,
-    /// Largest angular momentum about the system's mass centre, kg m²/s.
+    /// Largest departure of the angular momentum about the system's mass centre, kg m²/s.
     pub max_angular_momentum: f64,
     /// Largest gap between kinetic energy and the joints' work, J.
     pub max_energy_gap: f64,
@@ -129,7 +129,7 @@ pub fn verify(problem: &Problem, plan: &Discretization) -> Result<Verification, 
     let (angles, _) = Problem::base_sizes(model);
     check(model.name(), angles, model.joint_count(), plan)?;
     let mut found = Verification::default();
-    let planned = || pass::Planned::new(model, plan, angles);
+    let planned = || pass::Planned::new(problem, plan, angles);
     pass::run(forward::Forward::new(planned()), plan, &mut found)?;
     pass::run(replay::Replay::new(planned()), plan, &mut found)?;
     Ok(found)

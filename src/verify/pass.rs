@@ -2,9 +2,10 @@
 
 use super::bodies::{BaseMotion, Bodies, orientation};
 use super::integrate::{DormandPrince, Motion, Stuck};
-use super::mass_matrix::NotPositiveDefinite;
+use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
 use super::{Verification, VerifyError};
 use crate::dynamics::Model;
+use crate::planner::Problem;
 use crate::transcription::Discretization;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -19,16 +20,39 @@ pub(super) struct Planned<'a> {
     plan: &'a Discretization,
     angles: usize,
     bodies: Bodies,
+    /// Fractions of the duration of all nodes.
+    fractions: Vec<f64>,
     still: Vec<f64>,
+    /// Total momentum in inertial axes, the angular one about the system's mass centre.
+    pub linear: Vector3<f64>,
+    pub angular: Vector3<f64>,
+    total_mass: f64,
 }
 
 impl<'a> Planned<'a> {
-    pub fn new(model: &'a Model, plan: &'a Discretization, angles: usize) -> Self {
+    pub fn new(problem: &'a Problem, plan: &'a Discretization, angles: usize) -> Self {
+        let model = &problem.robot;
+        let momentum = &problem.task.initial_momentum;
+        // In the plane: along its axes, and about its normal.
+        let (linear, angular) = match model.plane() {
+            Some(plane) => (
+                plane.basis * Vector3::new(momentum.linear[0], momentum.linear[1], 0.0),
+                plane.basis * Vector3::new(0.0, 0.0, momentum.angular[0]),
+            ),
+            None => (
+                Vector3::from_column_slice(&momentum.linear),
+                Vector3::from_column_slice(&momentum.angular),
+            ),
+        };
         Self {
+            linear,
+            angular,
+            total_mass: model.total_mass(),
             model,
             plan,
             angles,
             bodies: Bodies::new(model),
+            fractions: plan.mesh.node_fractions(),
             still: vec![0.0; model.joint_count()],
         }
     }
@@ -44,7 +68,22 @@ impl<'a> Planned<'a> {
         let base = BaseMotion::placed(Vector3::zeros(), orientation);
         self.bodies
             .update(self.model, &base, self.joints(k), &self.still);
-        (orientation, -self.bodies.center())
+        let time = self.fractions[k] * self.plan.duration;
+        let drift = self.linear * (time / self.total_mass);
+        (orientation, drift - self.bodies.center())
+    }
+
+    /// Velocity and angular velocity of the base for the joint rates `dq`, with `mass` and
+    /// `bodies` at the current pose and the base's origin at `position`.
+    pub fn twist(
+        &self,
+        mass: &MassMatrix,
+        bodies: &Bodies,
+        position: &Vector3<f64>,
+        dq: &[f64],
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let arm = bodies.center() - position;
+        mass.with_momentum(dq, &self.linear, &(self.angular + arm.cross(&self.linear)))
     }
 }
 

@@ -10,7 +10,7 @@ use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
 use crate::transcription::Discretization;
 
-/// Integrates the base's position and orientation at zero momentum along the polynomial θ(t).
+/// Integrates the base's position and orientation by the system's momentum along the polynomial θ(t).
 ///
 /// The rates are those of that polynomial, which is what the joints then truly do; the planned
 /// rates θ̇ agree with them at the collocation points only.
@@ -22,6 +22,8 @@ pub(super) struct Replay<'a> {
     slope: Polynomial,
     q: Vec<f64>,
     dq: Vec<f64>,
+    /// Seconds a unit of τ in the current segment.
+    unit: f64,
 }
 
 impl<'a> Replay<'a> {
@@ -35,6 +37,7 @@ impl<'a> Replay<'a> {
             slope: Polynomial::default(),
             q: vec![0.0; n],
             dq: vec![0.0; n],
+            unit: 0.0,
         }
     }
 }
@@ -45,15 +48,19 @@ impl Motion for Replay<'_> {
     fn rate(&mut self, tau: f64, y: &[f64], dy: &mut [f64]) -> Result<(), NotPositiveDefinite> {
         self.path.at(tau, &mut self.q);
         self.slope.at(tau, &mut self.dq);
-        // The base rate is proportional to the joint rates, so τ serves as time.
+        self.dq.iter_mut().for_each(|rate| *rate /= self.unit);
         let base = BaseMotion::placed(vector(y, 0), unit(&y[3..]));
         self.bodies
             .update(self.planned.model, &base, &self.q, &self.dq);
         self.mass
             .update(self.planned.model, &self.bodies, &self.dq)?;
-        let (velocity, angular) = self.mass.momentum_free(&self.dq);
+        let position = vector(y, 0);
+        let (velocity, angular) = self
+            .planned
+            .twist(&self.mass, &self.bodies, &position, &self.dq);
         dy[..3].copy_from_slice(velocity.as_slice());
         turn_rate(&angular, &y[3..], &mut dy[3..]);
+        dy.iter_mut().for_each(|rate| *rate *= self.unit);
         Ok(())
     }
 }
@@ -79,6 +86,7 @@ impl Pass for Replay<'_> {
             (start..start + nodes.len()).map(|k| &planned.joints(k)[..n]),
         );
         self.slope.load_derivative(&self.path);
+        self.unit = 0.5 * plan.mesh.width(s) * plan.duration;
     }
 
     fn after_step(&mut self, _y: &[f64], _found: &mut Verification) {}

@@ -1,0 +1,68 @@
+//! Momentum that the system starts with and keeps: drift and tumble.
+
+use crate::autodiff::Scalar;
+use crate::dynamics::Data;
+use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::{Space, Vector};
+
+/// Total momentum of the system, constant along the motion; zero in the paper (Remark 1).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Momentum {
+    /// Linear momentum, inertial axes, kg m/s; two components in the plane, three in space.
+    pub linear: Vec<f64>,
+    /// Angular momentum about the system's mass centre, inertial axes, kg m²/s; one component in
+    /// the plane, three in space.
+    pub angular: Vec<f64>,
+}
+
+impl Momentum {
+    /// No momentum, for a base with that many angles and lengths.
+    pub fn zero(angles: usize, lengths: usize) -> Self {
+        Self {
+            linear: vec![0.0; lengths],
+            angular: vec![0.0; angles],
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_zero(&self) -> bool {
+        self.linear.iter().chain(&self.angular).all(|m| *m == 0.0)
+    }
+}
+
+/// What momentum does to the base.
+#[derive(Debug, Clone)]
+pub(super) struct Drift<Sp: Space> {
+    /// Velocity of the system's mass centre, m/s; `None` where it rests.
+    velocity: Option<Sp::Linear<f64>>,
+    angular: Option<Sp::Angular<f64>>,
+}
+
+impl<Sp: Attitude> Drift<Sp> {
+    pub fn new(momentum: &Momentum, total_mass: f64) -> Self {
+        let any = |values: &[f64]| values.iter().any(|v| *v != 0.0);
+        Self {
+            velocity: any(&momentum.linear).then(|| {
+                Sp::Linear::<f64>::from_components(&momentum.linear).times(1.0 / total_mass)
+            }),
+            angular: any(&momentum.angular)
+                .then(|| Sp::Angular::from_components(&momentum.angular)),
+        }
+    }
+
+    /// Adds I₀⁻¹RᵀL to the base's angular velocity.
+    pub fn tumble<S: Scalar>(&self, eta: &[S], data: &mut Data<Sp, S>) {
+        if let Some(angular) = &self.angular {
+            let seen = Sp::to_base(eta, angular);
+            data.base_rate += Sp::apply(&data.inverse_inertia, &seen);
+        }
+    }
+
+    /// Moves `position` with the system's mass centre, `t` seconds after t₀.
+    pub fn carry<S: Scalar>(&self, t: S, position: &mut [S]) {
+        let velocity = self.velocity.iter().flat_map(|v| v.components());
+        for (value, &v) in position.iter_mut().zip(velocity) {
+            *value += t * v;
+        }
+    }
+}
