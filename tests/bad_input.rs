@@ -165,7 +165,7 @@ fn missing_keys() {
     }
     assert_eq!(
         problem("final.joints = [0.5, 1.0]", ""),
-        "case.toml:5: task.final: missing; expected a table with joints, the joint positions at the end"
+        "case.toml:5: task.final: missing; expected a table with joints, the joint positions at the end, or end_effector"
     );
     assert_eq!(
         problem("duration = 20.0", ""),

@@ -6,7 +6,7 @@ use super::{Outcome, terminal};
 use crate::config::{Overrides, ProblemFile};
 use crate::dynamics::JointKind;
 use crate::ocp::Interval;
-use crate::planner::{Problem, straight_line};
+use crate::planner::{EndEffectorGoal, GoalFrame, Problem, straight_line};
 use crate::refine::Method;
 use crate::report::Lines;
 use clap::Args;
@@ -85,17 +85,67 @@ fn task(lines: &mut Lines, problem: &Problem) {
     lines.add("duration", duration);
     for (i, joint) in problem.robot.joints().iter().enumerate() {
         let at = |value| Quantity::Position(joint.kind).show(value);
-        let mut motion = format!(
-            "{} to {}",
-            at(task.initial_joints[i]),
+        let goal = if task.free_joints[i] {
+            "wherever the end effector needs it".into()
+        } else {
             at(task.final_joints[i])
-        );
+        };
+        let mut motion = format!("{} to {goal}", at(task.initial_joints[i]));
         if task.initial_rates[i] != 0.0 {
             let rate = Quantity::Rate(joint.kind).show(task.initial_rates[i]);
             motion.push_str(&format!(", starting at {rate}"));
         }
         lines.add(&format!("joint {}", joint.name), motion);
     }
+    if let Some(goal) = &task.end_effector {
+        lines.add("end effector", end_effector(goal));
+    }
+    let momentum = &task.initial_momentum;
+    if !momentum.is_zero() {
+        let list = |values: &[f64]| {
+            let shown: Vec<String> = values.iter().map(|v| rounded(*v)).collect();
+            format!("({})", shown.join(", "))
+        };
+        let linear = format!("{} kg m/s", list(&momentum.linear));
+        let angular = format!("{} kg m²/s", list(&momentum.angular));
+        lines.add("momentum", format!("linear {linear}, angular {angular}"));
+    }
+}
+
+/// A task-space goal in one line.
+fn end_effector(goal: &EndEffectorGoal) -> String {
+    let list = |values: &[f64], quantity: Quantity| {
+        let shown: Vec<String> = values.iter().map(|v| quantity.show(*v)).collect();
+        shown.join(", ")
+    };
+    let (length, angle) = (
+        Quantity::Position(JointKind::Prismatic),
+        Quantity::Position(JointKind::Revolute),
+    );
+    let mut parts = Vec::new();
+    for (what, values, room, quantity) in [
+        ("at", &goal.position, goal.position_tolerance, length),
+        (
+            "turned",
+            &goal.orientation,
+            goal.orientation_tolerance,
+            angle,
+        ),
+    ] {
+        if let Some(values) = values {
+            let mut part = format!("{what} {}", list(values, quantity));
+            if room > 0.0 {
+                part.push_str(&format!(" ± {}", quantity.show(room)));
+            }
+            parts.push(part);
+        }
+    }
+    let frame = match goal.frame {
+        GoalFrame::Inertial => "inertial axes, from the mass centre at the start",
+        GoalFrame::Start => "the base frame at the start",
+        GoalFrame::Base => "the base frame at the end",
+    };
+    format!("{}; in {frame}", parts.join(", "))
 }
 
 fn limits(lines: &mut Lines, problem: &Problem) {
