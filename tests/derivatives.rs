@@ -9,7 +9,9 @@ use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::dynamics::{Model, Placement};
 use ffsm_ipopt::nlp::Nlp;
 use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, Interval, Ocp, Point, Quantity};
-use ffsm_ipopt::planner::{EndEffectorGoal, FreeFloating, GoalFrame, Problem};
+use ffsm_ipopt::planner::{
+    EndEffectorGoal, FreeFloating, GoalFrame, KeepOut, Obstacle, Problem, Sphere,
+};
 use ffsm_ipopt::transcription::{Patterns, Transcription};
 use num_dual::{DualNum, HyperDual64};
 use num_traits::{One, Zero};
@@ -365,6 +367,32 @@ fn task_space_goals() {
         check_problem(&with_goal(loaded(problems::two_link()), frame), small());
         let arm = loaded(trees::chain(3, 4));
         check_problem(&with_goal(arm, frame), Mesh::uniform(1, 2).unwrap());
+    }
+}
+
+#[test]
+fn pairs_kept_apart() {
+    let sphere = |joint, radius| Sphere {
+        joint,
+        center: [0.3, 0.1, -0.2],
+        radius,
+    };
+    for robot in [problems::two_link(), trees::chain(3, 8)] {
+        let mut problem = loaded(robot);
+        let last = problem.robot.joint_count() - 1;
+        let pair = |from| KeepOut {
+            name: "apart".into(),
+            sphere: sphere(Some(last), 0.1),
+            from,
+        };
+        let (center, half) = ([0.1, -0.2, 0.3], [0.6, 0.5, 0.4]);
+        problem.limits.keep_out = vec![
+            pair(Obstacle::Sphere(sphere(None, 0.5))),
+            pair(Obstacle::Sphere(sphere(Some(0), 0.2))),
+            pair(Obstacle::Box { center, half }),
+        ];
+        problem.limits.torque = vec![Interval::symmetric(3.0); last + 1];
+        check_problem(&problem, Mesh::uniform(1, 2).unwrap());
     }
 }
 

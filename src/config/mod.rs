@@ -11,6 +11,7 @@ mod files;
 mod goal;
 mod inertia;
 mod item;
+mod keep_out;
 mod overrides;
 mod problem;
 mod robot;

@@ -122,7 +122,8 @@ fn read(document: &Node, path: &Path, files: Files) -> Result<(Problem, RobotFil
     let mut problem = Problem::new(&name, model, task.duration.lower, &[], &[]);
     problem.task = task;
     if let Some(item) = root.get("limits") {
-        tables::limits(item, &mut problem.limits, &joints, &angles)?;
+        let robot = problem.robot.clone();
+        tables::limits(item, &mut problem.limits, &robot, &joints, &angles)?;
     }
     if let Some(item) = root.get("cost") {
         tables::cost(item, &mut problem.cost, &joints, &angles, &lengths)?;

@@ -4,7 +4,9 @@ use super::ConfigError;
 use super::document::{Value, quoted};
 use super::goal;
 use super::item::Item;
+use super::keep_out;
 use super::values::Components;
+use crate::dynamics::Model;
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::planner::{Cost, Limits, Momentum, Task};
@@ -91,9 +93,11 @@ fn duration(item: &Item<'_>) -> Result<Interval, ConfigError> {
 pub(super) fn limits(
     item: &Item<'_>,
     limits: &mut Limits,
+    robot: &Model,
     joints: &Components,
     angles: &Components,
 ) -> Result<(), ConfigError> {
+    const KEEP_OUT: &str = "keep_out";
     let mut keys = [
         ("joint_position", &mut limits.joint_position, joints),
         ("joint_velocity", &mut limits.joint_velocity, joints),
@@ -107,11 +111,16 @@ pub(super) fn limits(
             angles,
         ),
     ];
-    let section = item.section(&keys.each_ref().map(|(name, ..)| *name))?;
+    let mut known = keys.each_ref().map(|(name, ..)| *name).to_vec();
+    known.push(KEEP_OUT);
+    let section = item.section(&known)?;
     for (name, bounds, components) in &mut keys {
         if let Some(item) = section.get(name) {
             **bounds = components.bounds(item, bounds)?;
         }
+    }
+    if let Some(item) = section.get(KEEP_OUT) {
+        limits.keep_out = keep_out::read(item, robot)?;
     }
     Ok(())
 }

@@ -11,20 +11,20 @@
 //! | `mass_matrix` | the reduced inertia matrix H, eq. (6) |
 //! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
 //! | `attitude` | the rate map of the base attitude |
-//! | `end_effector` | pose of the end-effector frame |
+//! | `mount` | frames fixed in bodies, the end effector's among them |
 //!
 //! All vectors are in the axes of the base body, so that nothing depends on the base attitude.
 
 pub mod attitude;
 mod bias;
 mod data;
-mod end_effector;
 mod inertia;
 mod kinematics;
 mod ldl;
 mod mass_matrix;
 mod model;
 mod momentum;
+mod mount;
 mod planarity;
 pub mod space;
 mod tree;
@@ -33,5 +33,6 @@ pub use data::Data;
 pub use inertia::{Inertia, InertiaError};
 pub use ldl::Ldl;
 pub use model::{Body, Joint, JointKind, JointLimits, Model, ModelError, Placement};
+pub use mount::Mount;
 pub use planarity::Plane;
 pub use tree::Tree;

@@ -91,6 +91,10 @@ pub trait Space: Copy + Debug + Send + Sync + 'static {
         body: &Self::Orientation<S>,
         fixed: &Self::Orientation<f64>,
     ) -> Self::Orientation<S>;
+    /// A constant vector given by three components in the frame that bodies are compiled in.
+    fn constant_vector(v: &Vector3<f64>) -> Self::Linear<f64>;
+    /// A constant orientation given by a rotation matrix in that frame.
+    fn constant_orientation(rotation: &Matrix3<f64>) -> Self::Orientation<f64>;
     /// How far `orientation` is turned from the constant `goal`: sines of the angle about each
     /// axis (one in the plane, three in space), then its cosine. All zero but a cosine of one
     /// where they agree.
@@ -168,6 +172,17 @@ impl Space for Planar {
     #[inline]
     fn attached<S: Scalar>(body: &Vector2<S>, fixed: &Vector2<f64>) -> Vector2<S> {
         Self::rotated(body, fixed)
+    }
+    fn constant_vector(v: &Vector3<f64>) -> Vector2<f64> {
+        v.xy()
+    }
+    fn constant_orientation(rotation: &Matrix3<f64>) -> Vector2<f64> {
+        let [x, y] = [0, 1].map(|i| Vector2::new(rotation[(0, i)], rotation[(1, i)]));
+        if x.norm() > 0.5 {
+            x.normalize()
+        } else {
+            y.normalize()
+        }
     }
     #[inline]
     fn turn_between<S: Scalar>(o: &Vector2<S>, goal: &Vector2<f64>, rows: &mut [S]) {
@@ -277,6 +292,12 @@ impl Space for Spatial {
     #[inline]
     fn attached<S: Scalar>(body: &[Vector3<S>; 3], fixed: &[Vector3<f64>; 3]) -> [Vector3<S>; 3] {
         [0, 1, 2].map(|i| Self::rotated(body, &fixed[i]))
+    }
+    fn constant_vector(v: &Vector3<f64>) -> Vector3<f64> {
+        *v
+    }
+    fn constant_orientation(rotation: &Matrix3<f64>) -> [Vector3<f64>; 3] {
+        [0, 1, 2].map(|i| rotation.column(i).into_owned())
     }
     #[inline]
     fn turn_between<S: Scalar>(o: &[Vector3<S>; 3], goal: &[Vector3<f64>; 3], rows: &mut [S]) {

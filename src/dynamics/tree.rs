@@ -1,9 +1,8 @@
 //! A model compiled for evaluation: only what the recursions read, in aligned frames.
 
-use super::end_effector::Mount;
 use super::planarity::zero_poses;
 use super::space::{Planar, Space, Spatial, Symmetric};
-use super::{Inertia, JointKind, Model};
+use super::{Inertia, JointKind, Model, Mount};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// One body with its joint. The base has no joint and is kept apart.
@@ -34,7 +33,10 @@ pub struct Tree<Sp: Space> {
     pub(super) base_center: Sp::Linear<f64>,
     pub(super) base_inertia: Sp::Inertia<f64>,
     pub(super) total_mass: f64,
-    pub(super) mount: Option<Mount<Sp>>,
+    /// Rotation from each body's frame, and from the base's, to the one it is compiled in.
+    pub(super) frames: Vec<Matrix3<f64>>,
+    pub(super) base_frame: Matrix3<f64>,
+    pub(super) end_effector: Option<Mount<Sp>>,
 }
 
 impl<Sp: Space> Tree<Sp> {
@@ -53,7 +55,9 @@ impl<Sp: Space> Tree<Sp> {
         base_mass: f64,
         base_center: Sp::Linear<f64>,
         base_inertia: Sp::Inertia<f64>,
-        mount: Option<Mount<Sp>>,
+        model: &Model,
+        frames: Vec<Matrix3<f64>>,
+        base_frame: Matrix3<f64>,
     ) -> Self {
         for j in (0..links.len()).rev() {
             if let Some(parent) = links[j].parent {
@@ -66,14 +70,20 @@ impl<Sp: Space> Tree<Sp> {
                 .filter(|link| link.parent.is_none())
                 .map(|link| link.carried)
                 .sum::<f64>();
-        Self {
+        let mut tree = Self {
             links,
             base_mass,
             base_center,
             base_inertia,
             total_mass,
-            mount,
-        }
+            frames,
+            base_frame,
+            end_effector: None,
+        };
+        tree.end_effector = model
+            .end_effector()
+            .map(|(link, placement)| tree.mount(*link, placement));
+        tree
     }
 }
 
@@ -111,14 +121,19 @@ impl Tree<Planar> {
                 }
             })
             .collect();
-        let rotations: Vec<Matrix3<f64>> = poses.iter().map(|(rotation, _)| *rotation).collect();
+        let frames = poses
+            .iter()
+            .map(|(rotation, _)| basis.transpose() * rotation)
+            .collect();
         let base = &model.base().inertia;
         Some(Self::assemble(
             links,
             base.mass(),
             flat(*base.center()),
             about_normal(base),
-            Mount::planar(model, &basis, &rotations),
+            model,
+            frames,
+            basis.transpose(),
         ))
     }
 }
@@ -172,7 +187,9 @@ impl Tree<Spatial> {
             base.mass(),
             *base.center(),
             Symmetric::from_matrix(base.rotational()),
-            Mount::spatial(model, &alignment),
+            model,
+            alignment.iter().map(Matrix3::transpose).collect(),
+            Matrix3::identity(),
         )
     }
 }

@@ -288,7 +288,7 @@ fn findings<Sp: Attitude>(
         .map(|k| trajectory.state(k).to_vec())
         .collect();
     let last = &state_rows[state_rows.len() - 1];
-    let rate_rows = system.limits_base_rate();
+    let path_rows = system.path_rows(trajectory);
     let end_rows = system.end_rows(trajectory);
     let mut limits = Vec::new();
     for group in groups {
@@ -323,7 +323,7 @@ fn findings<Sp: Attitude>(
                 Limited::Boundary(b) => {
                     let row = &formulation.boundary[b];
                     (
-                        "task.final.end_effector",
+                        system.boundary_key(b),
                         &row.name,
                         row.bounds,
                         vec![end_rows[b]],
@@ -331,22 +331,12 @@ fn findings<Sp: Attitude>(
                 }
                 Limited::Path(p) => {
                     let row = &formulation.path[p];
-                    if rate_rows && p < Sp::ANGLES {
-                        (
-                            "limits.base_rate",
-                            &row.name,
-                            row.bounds,
-                            column(&planned.base_rate, p),
-                        )
-                    } else {
-                        let j = p - if rate_rows { Sp::ANGLES } else { 0 };
-                        (
-                            "limits.torque",
-                            &row.name,
-                            row.bounds,
-                            column(&planned.joint_torque, j),
-                        )
-                    }
+                    (
+                        system.path_limit(p).0,
+                        &row.name,
+                        row.bounds,
+                        column(&path_rows, p),
+                    )
                 }
             };
             let reached = values.iter().fold(
@@ -361,12 +351,7 @@ fn findings<Sp: Attitude>(
                 limits.push(LimitFinding {
                     key: key.into(),
                     component: component.clone(),
-                    unit: unit(
-                        problem,
-                        key,
-                        component,
-                        member_joint(member, Sp::ANGLES, n, rate_rows),
-                    ),
+                    unit: unit(problem, key, component, member_joint(system, member)),
                     bound,
                     excess,
                     smallest_bound: widened(bound, reached),
@@ -416,13 +401,14 @@ fn summary(limits: &[LimitFinding]) -> String {
     parts.iter().map(part).collect::<Vec<_>>().join("; ")
 }
 
-/// The joint a bound is about; `None` for the base.
-fn member_joint(member: Limited, angles: usize, n: usize, rate_rows: bool) -> Option<usize> {
+/// The joint a bound is about; `None` for the base and for what is about no single joint.
+fn member_joint<Sp: Attitude>(system: &FreeFloating<Sp>, member: Limited) -> Option<usize> {
     match member {
-        Limited::State(i) | Limited::Terminal(i) => i.checked_sub(angles).map(|k| k % n),
+        Limited::State(i) | Limited::Terminal(i) => {
+            i.checked_sub(Sp::ANGLES).map(|k| k % system.joint_count())
+        }
         Limited::Control(j) => Some(j),
-        Limited::Path(p) if rate_rows => p.checked_sub(angles),
-        Limited::Path(p) => Some(p),
+        Limited::Path(p) => system.path_limit(p).1,
         Limited::Boundary(_) => None,
     }
 }
@@ -434,6 +420,7 @@ fn unit(problem: &Problem, key: &str, component: &str, joint: Option<usize>) -> 
     }
     let slides = joint.is_some_and(|j| problem.robot.joints()[j].kind == JointKind::Prismatic);
     match (key, slides) {
+        ("limits.keep_out", _) => "of the least distance squared",
         ("limits.torque", false) => "N·m",
         ("limits.torque", true) => "N",
         ("limits.base_rate" | "limits.joint_velocity", false) => "rad/s",

@@ -2,6 +2,7 @@
 
 use super::Problem;
 use super::goal::GoalRows;
+use super::keep_out::KeepOutRow;
 use super::momentum::Drift;
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::{Attitude, base_position};
@@ -25,6 +26,7 @@ pub struct FreeFloating<Sp: Attitude> {
     torque_cost: bool,
     goal: Option<GoalRows<Sp>>,
     drift: Drift<Sp>,
+    keep_out: Vec<KeepOutRow<Sp>>,
 }
 
 impl FreeFloating<Planar> {
@@ -55,12 +57,22 @@ impl<Sp: Attitude> FreeFloating<Sp> {
         let goal = problem.task.end_effector.as_ref();
         let goal = goal.map(|goal| GoalRows::new(goal, start_position));
         let mut formulation = formulation::<Sp>(problem, rate_rows, torque_rows);
+        let pairs = limits.keep_out.iter();
+        let keep_out: Vec<_> = pairs.map(|pair| KeepOutRow::new(pair, &tree)).collect();
+        formulation
+            .path
+            .extend(keep_out.iter().map(KeepOutRow::quantity));
         formulation.boundary = goal.iter().flat_map(GoalRows::quantities).collect();
+        // Path rows do not reach t_f, which is no collocation point.
+        formulation
+            .boundary
+            .extend(keep_out.iter().map(KeepOutRow::quantity));
         Self {
             formulation,
             cost: problem.cost.clone(),
             start_position,
             goal,
+            keep_out,
             drift: Drift::new(&problem.task.initial_momentum, tree.total_mass()),
             rate_rows,
             torque_rows,
@@ -91,9 +103,38 @@ impl<Sp: Attitude> FreeFloating<Sp> {
         self.tree.joint_count()
     }
 
-    /// Whether the first path rows are the rates η̇.
-    pub fn limits_base_rate(&self) -> bool {
-        self.rate_rows
+    /// Key in the problem file of the limit behind path row `p`, and the joint it is about.
+    pub fn path_limit(&self, p: usize) -> (&'static str, Option<usize>) {
+        let rates = if self.rate_rows { Sp::ANGLES } else { 0 };
+        match p.checked_sub(rates) {
+            None => ("limits.base_rate", None),
+            Some(j) if self.torque_rows && j < self.joint_count() => ("limits.torque", Some(j)),
+            Some(_) => ("limits.keep_out", None),
+        }
+    }
+
+    /// Key in the problem file of what is behind boundary row `b`.
+    pub fn boundary_key(&self, b: usize) -> &'static str {
+        if b + self.keep_out.len() < self.formulation.boundary.len() {
+            "task.final.end_effector"
+        } else {
+            "limits.keep_out"
+        }
+    }
+
+    /// Values of the path rows at every collocation point of `trajectory`.
+    pub fn path_rows(&self, trajectory: &Discretization) -> Vec<Vec<f64>> {
+        let mut scratch = self.scratch::<f64>();
+        let mut rates = vec![0.0; trajectory.states];
+        let times = trajectory.times();
+        (0..trajectory.mesh.points())
+            .map(|k| {
+                let mut rows = vec![0.0; self.formulation.path.len()];
+                let (x, u, t) = (trajectory.state(k), trajectory.control(k), times[k]);
+                self.continuous(Point { x, u, t }, &mut scratch, &mut rates, &mut rows);
+                rows
+            })
+            .collect()
     }
 
     /// Values of the boundary rows at the ends of `trajectory`.
@@ -150,7 +191,15 @@ impl<Sp: Attitude> FreeFloating<Sp> {
             .enumerate()
             .filter(|(_, r)| !r.bounds.is_free())
         {
-            push(row.name.clone(), vec![Limited::Path(i)], &row.bounds);
+            let mut members = vec![Limited::Path(i)];
+            // The same pair at t_f: both lists of rows end with the pairs.
+            if self.path_limit(i).0 == "limits.keep_out" {
+                let from_last = self.formulation.path.len() - i;
+                members.push(Limited::Boundary(
+                    self.formulation.boundary.len() - from_last,
+                ));
+            }
+            push(row.name.clone(), members, &row.bounds);
         }
         // Positions before rates: where both could give way, the cheaper one is found anyway.
         for (i, state) in states.iter().enumerate().skip(Sp::ANGLES).take(2 * n) {
@@ -158,7 +207,8 @@ impl<Sp: Attitude> FreeFloating<Sp> {
                 push(state.name.clone(), vec![Limited::State(i)], &state.bounds);
             }
         }
-        for (b, row) in self.formulation.boundary.iter().enumerate() {
+        let goal_rows = self.formulation.boundary.len() - self.keep_out.len();
+        for (b, row) in self.formulation.boundary[..goal_rows].iter().enumerate() {
             // Allowed distances are small; a tenth of a metre or radian counts as one.
             groups.push(LimitGroup {
                 name: row.name.clone(),
@@ -302,8 +352,11 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         if self.torque_rows || self.torque_cost {
             torques(&data.mass_matrix, point.u, &mut scratch.torque);
         }
-        let (rate_rows, torque_rows) =
-            path.split_at_mut(if self.rate_rows { Sp::ANGLES } else { 0 });
+        let (rate_rows, rest) = path.split_at_mut(if self.rate_rows { Sp::ANGLES } else { 0 });
+        let (torque_rows, apart) = rest.split_at_mut(if self.torque_rows { n } else { 0 });
+        for (row, pair) in apart.iter_mut().zip(&self.keep_out) {
+            *row = pair.value(&self.tree, data);
+        }
         if self.rate_rows {
             rate_rows.copy_from_slice(eta_rates);
         }
@@ -326,13 +379,18 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         }
         let data = &mut scratch.data;
         let placed = self.cost.final_base_position.iter().any(|w| *w > 0.0);
-        if placed || self.goal.is_some() {
+        let posed = self.goal.is_some() || !self.keep_out.is_empty();
+        if placed || posed {
             self.tree.kinematics(&joints[..self.joint_count()], data);
             self.tree.momentum(data);
         }
+        let (goal_rows, apart) = rows.split_at_mut(rows.len() - self.keep_out.len());
+        for (row, pair) in apart.iter_mut().zip(&self.keep_out) {
+            *row = pair.value(&self.tree, data);
+        }
         if let (Some(goal), Some(pose)) = (&self.goal, self.tree.end_effector(data)) {
             let carry = |position: &mut [S]| self.drift.carry(ends.duration, position);
-            goal.values(eta, pose, &data.system_center, carry, rows);
+            goal.values(eta, pose, &data.system_center, carry, goal_rows);
         }
         if placed {
             let mut end = base_position::<Sp, S>(eta, &data.system_center);

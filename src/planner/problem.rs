@@ -1,6 +1,6 @@
 //! A planning problem: robot, task, limits, cost and mesh, eq. (7) to (18).
 
-use super::{EndEffectorGoal, Momentum};
+use super::{EndEffectorGoal, KeepOut, Momentum, Obstacle};
 use crate::dynamics::space::{Planar, Space, Spatial};
 use crate::dynamics::{JointKind, Model};
 use crate::nlp;
@@ -44,6 +44,8 @@ pub struct Limits {
     pub base_rate: Vec<Interval>,
     /// Base attitude at t_f, rad; one an angle.
     pub final_base_attitude: Vec<Interval>,
+    /// Pairs kept apart along the path.
+    pub keep_out: Vec<KeepOut>,
 }
 
 /// Weights of the cost functional (14).
@@ -145,6 +147,7 @@ impl Problem {
                 base_attitude: free(angles),
                 base_rate: free(angles),
                 final_base_attitude: free(angles),
+                keep_out: Vec::new(),
             },
             cost: Cost {
                 final_base_attitude: vec![0.0; angles],
@@ -253,11 +256,64 @@ impl Problem {
                 ));
             }
         }
+        self.validate_keep_out(n)?;
         self.validate_ends(n)?;
         self.validate_cost(n, angles, lengths)?;
         self.mesh
             .validate()
             .map_err(|(key, found, expected)| error(format!("mesh.{key}"), found, expected))
+    }
+
+    fn validate_keep_out(&self, n: usize) -> Result<(), ProblemError> {
+        for (i, pair) in self.limits.keep_out.iter().enumerate() {
+            let key = |rest: &str| format!("limits.keep_out[{i}].{rest}");
+            let mut radii = pair.sphere.radius;
+            let mut numbers = pair.sphere.center.to_vec();
+            let mut carriers = vec![pair.sphere.joint];
+            match &pair.from {
+                Obstacle::Sphere(other) => {
+                    radii += other.radius;
+                    numbers.extend(other.center);
+                    carriers.push(other.joint);
+                    if !(other.radius.is_finite() && other.radius >= 0.0) {
+                        let expected = "a finite length, m, zero or above";
+                        return Err(error(key("from.radius"), other.radius, expected));
+                    }
+                }
+                Obstacle::Box { center, half } => {
+                    numbers.extend(center);
+                    carriers.push(None);
+                    if let Some(h) = half.iter().find(|h| !(h.is_finite() && **h > 0.0)) {
+                        let expected = "finite lengths above zero, m";
+                        return Err(error(key("from.half"), h, expected));
+                    }
+                    radii += half[0];
+                }
+            }
+            if !(pair.sphere.radius.is_finite() && pair.sphere.radius >= 0.0) {
+                let expected = "a finite length, m, zero or above";
+                return Err(error(key("sphere.radius"), pair.sphere.radius, expected));
+            }
+            if let Some(c) = numbers.iter().find(|c| !c.is_finite()) {
+                return Err(error(key("sphere.center"), c, "finite numbers"));
+            }
+            if radii == 0.0 {
+                let expected = "a radius above zero on one side";
+                return Err(error(key("sphere.radius"), "two points", expected));
+            }
+            if carriers.iter().flatten().any(|&joint| joint >= n) {
+                return Err(error(
+                    key("sphere.body"),
+                    "no such body",
+                    "a body of the robot",
+                ));
+            }
+            if carriers[0] == carriers[1] {
+                let expected = "two different bodies";
+                return Err(error(key("from.body"), "the same body", expected));
+            }
+        }
+        Ok(())
     }
 
     fn validate_goal(&self, n: usize, angles: usize, lengths: usize) -> Result<(), ProblemError> {

@@ -232,6 +232,7 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
         && (a.cost.duration == 0.0) == (b.cost.duration == 0.0)
         && a.task.end_effector == b.task.end_effector
         && a.task.initial_momentum == b.task.initial_momentum
+        && a.limits.keep_out == b.limits.keep_out
         && limited(a) == limited(b)
         && a.task.duration.is_fixed() == b.task.duration.is_fixed()
 }

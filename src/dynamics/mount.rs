@@ -1,0 +1,58 @@
+//! Frames fixed in bodies: the end effector, and points that are kept clear of each other.
+
+use super::space::Space;
+use super::{Data, Placement, Tree};
+use crate::autodiff::Scalar;
+
+/// A frame fixed in the body of a joint, or in the base.
+#[derive(Debug, Clone)]
+pub struct Mount<Sp: Space> {
+    link: Option<usize>,
+    orientation: Sp::Orientation<f64>,
+    offset: Sp::Linear<f64>,
+}
+
+impl<Sp: Space> Tree<Sp> {
+    /// The frame `placement` in the body of joint `link` (`None`: the base).
+    ///
+    /// In the plane its heading is that of its x axis, or of its y axis where x stands on the
+    /// plane.
+    pub fn mount(&self, link: Option<usize>, placement: &Placement) -> Mount<Sp> {
+        let body = link.map_or(&self.base_frame, |j| &self.frames[j]);
+        Mount {
+            link,
+            orientation: Sp::constant_orientation(&(body * placement.rotation)),
+            offset: Sp::constant_vector(&(body * placement.translation)),
+        }
+    }
+
+    /// Position of a mounted frame's origin in the base frame, m. Needs [`Tree::kinematics`].
+    pub fn position<S: Scalar>(&self, mount: &Mount<Sp>, data: &Data<Sp, S>) -> Sp::Linear<S> {
+        match mount.link {
+            Some(j) => data.origin[j] + Sp::rotated(&data.orientation[j], &mount.offset),
+            None => Sp::rotated(&Sp::aligned(), &mount.offset),
+        }
+    }
+
+    /// Orientation of a mounted frame in the base frame. Needs [`Tree::kinematics`].
+    pub fn orientation<S: Scalar>(
+        &self,
+        mount: &Mount<Sp>,
+        data: &Data<Sp, S>,
+    ) -> Sp::Orientation<S> {
+        match mount.link {
+            Some(j) => Sp::attached(&data.orientation[j], &mount.orientation),
+            None => Sp::attached(&Sp::aligned(), &mount.orientation),
+        }
+    }
+
+    /// Orientation and position (m) of the end-effector frame in the base frame; `None` where the
+    /// robot has none. Needs [`Tree::kinematics`].
+    pub fn end_effector<S: Scalar>(
+        &self,
+        data: &Data<Sp, S>,
+    ) -> Option<(Sp::Orientation<S>, Sp::Linear<S>)> {
+        let mount = self.end_effector.as_ref()?;
+        Some((self.orientation(mount, data), self.position(mount, data)))
+    }
+}

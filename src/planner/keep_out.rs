@@ -1,0 +1,117 @@
+//! Spheres on the arm that are kept out of others, and of boxes on the base.
+
+use crate::autodiff::Scalar;
+use crate::dynamics::space::{Space, Vector};
+use crate::dynamics::{Data, Mount, Placement, Tree};
+use crate::ocp::{Interval, Quantity};
+use nalgebra::{Matrix3, Vector3};
+
+/// A sphere fixed in a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sphere {
+    /// The joint whose body carries it; `None` for the base.
+    pub joint: Option<usize>,
+    /// Centre in the body's frame, m.
+    pub center: [f64; 3],
+    /// Radius, m; 0 for a point.
+    pub radius: f64,
+}
+
+/// What a sphere is kept out of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Obstacle {
+    /// Another sphere, on the base or on another body.
+    Sphere(Sphere),
+    /// A box with edges along the base frame's axes.
+    Box {
+        /// Centre in the base frame, m.
+        center: [f64; 3],
+        /// Half of each edge, m.
+        half: [f64; 3],
+    },
+}
+
+/// One pair that is kept apart along the whole path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KeepOut {
+    /// What a person calls it ("forearm off the bus").
+    pub name: String,
+    /// The sphere.
+    pub sphere: Sphere,
+    /// What it is kept out of.
+    pub from: Obstacle,
+}
+
+/// Even power of the norm that rounds a box: a smooth solid around it, with the corners on its
+/// surface and faces that stand off by a fifth of half an edge in space (an eighth in the plane).
+const POWER: i32 = 6;
+
+/// A pair compiled for evaluation. Its row is at least 1 where the pair is apart.
+#[derive(Debug, Clone)]
+pub(super) struct KeepOutRow<Sp: Space> {
+    name: String,
+    sphere: Mount<Sp>,
+    from: Solid<Sp>,
+}
+
+#[derive(Debug, Clone)]
+enum Solid<Sp: Space> {
+    /// Other sphere's centre and 1/(sum of radii)².
+    Sphere(Mount<Sp>, f64),
+    /// Box centre and 1/(half edge) along each axis of the plane or of space.
+    Box(Mount<Sp>, Vec<f64>),
+}
+
+impl<Sp: Space> KeepOutRow<Sp> {
+    pub fn new(pair: &KeepOut, tree: &Tree<Sp>) -> Self {
+        let at = |joint, center: [f64; 3]| {
+            let placement = Placement {
+                rotation: Matrix3::identity(),
+                translation: Vector3::from(center),
+            };
+            tree.mount(joint, &placement)
+        };
+        let from = match &pair.from {
+            Obstacle::Sphere(other) => Solid::Sphere(
+                at(other.joint, other.center),
+                (pair.sphere.radius + other.radius).powi(-2),
+            ),
+            Obstacle::Box { center, half } => {
+                // The sphere's radius goes to the box, which is then rounded outwards.
+                let count = Sp::LENGTHS as f64;
+                let outwards = count.powf(1.0 / f64::from(POWER));
+                let edge = |h: &f64| 1.0 / ((h + pair.sphere.radius) * outwards);
+                Solid::Box(
+                    at(None, *center),
+                    half.iter().take(Sp::LENGTHS).map(edge).collect(),
+                )
+            }
+        };
+        Self {
+            name: pair.name.clone(),
+            sphere: at(pair.sphere.joint, pair.sphere.center),
+            from,
+        }
+    }
+
+    pub fn quantity(&self) -> Quantity {
+        Quantity::new(self.name.clone(), Interval::new(1.0, f64::INFINITY))
+    }
+
+    /// Squared distance over the least one, or the box's rounded norm to its power.
+    pub fn value<S: Scalar>(&self, tree: &Tree<Sp>, data: &Data<Sp, S>) -> S {
+        let (Solid::Sphere(other, _) | Solid::Box(other, _)) = &self.from;
+        let apart = tree.position(&self.sphere, data) - tree.position(other, data);
+        match &self.from {
+            Solid::Sphere(_, scale) => apart.dot(&apart) * *scale,
+            Solid::Box(_, scales) => {
+                let mut sum = S::zero();
+                for (&c, &scale) in apart.components().iter().zip(scales) {
+                    let square = (c * scale).square();
+                    sum += square * square * square;
+                }
+                sum
+            }
+        }
+    }
+}
