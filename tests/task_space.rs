@@ -3,6 +3,7 @@
 mod problems;
 mod trees;
 
+use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::Placement;
 use ffsm_ipopt::nalgebra::{Matrix3, Rotation3, Vector3};
 use ffsm_ipopt::ocp::Interval;
@@ -161,5 +162,25 @@ fn the_fastest_motion_is_as_fast_as_the_slowest_joint() {
     assert!(
         (duration - alone).abs() < 0.05 * alone,
         "{duration} s against {alone} s"
+    );
+}
+
+#[test]
+fn the_capture_case_meets_its_known_answer() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/config/capture.toml");
+    let problem = ProblemFile::load(file.as_ref(), &Overrides::default())
+        .unwrap()
+        .problem;
+    let plan = plan(&problem).unwrap();
+    assert_eq!(plan.status, Status::Solved);
+    assert!(
+        (plan.objective - 0.466819).abs() < 5e-6,
+        "J = {}",
+        plan.objective
+    );
+    let degrees = plan.metrics.final_base_attitude.to_degrees();
+    assert!(
+        (degrees - 0.530).abs() < 2e-3,
+        "final base attitude {degrees}°"
     );
 }

@@ -171,6 +171,14 @@ fn limits(lines: &mut Lines, problem: &Problem) {
             .collect();
         lines.add(&format!("  {label}"), by_name(&names, &shown));
     }
+    if !limits.keep_out.is_empty() {
+        let pairs: Vec<&str> = limits
+            .keep_out
+            .iter()
+            .map(|pair| pair.name.as_str())
+            .collect();
+        lines.add("  kept apart", pairs.join(", "));
+    }
     let angles = angle_names(problem);
     for (label, bounds, quantity) in [
         (
@@ -276,8 +284,13 @@ fn straight(problem: &Problem) -> String {
             format!("({})", shown.join(", "))
         }
     };
+    let to = if problem.task.free_joints.contains(&true) {
+        " to where the search begins"
+    } else {
+        ""
+    };
     format!(
-        "straight-line base motion: {}°, {} cm",
+        "straight-line base motion{to}: {}°, {} cm",
         list(&found.base_attitude, 1f64.to_degrees(), 5),
         list(&found.base_displacement, 100.0, 6)
     )

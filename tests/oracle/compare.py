@@ -13,11 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
+
 import plan as plans
 import with_mujoco
 import with_pinocchio
 import with_spart
-from numpy.typing import NDArray
 from plan import Plan
 from replay import Tool, replay, start
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.polynomial import Legendre
 from numpy.typing import NDArray
-from robot import Robot, read
 from scipy.spatial.transform import Rotation
+
+from robot import Robot, read
 
 Array = NDArray[np.float64]
 

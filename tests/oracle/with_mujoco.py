@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
 from plan import Plan, Segment
 from robot import Body, Robot
-from scipy.spatial.transform import Rotation
 from urdf import text
 
 Array = NDArray[np.float64]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
+
 from robot import Body, Robot
 
 Array = NDArray[np.float64]

@@ -16,10 +16,11 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-import urdf
 from numpy.typing import NDArray
-from robot import ZERO, Robot
 from SPARTpy import SPART
+
+import urdf
+from robot import ZERO, Robot
 
 Array = NDArray[np.float64]
 VERSION = f"SPARTpy {version('SPARTpy')}"
