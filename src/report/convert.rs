@@ -107,6 +107,7 @@ fn diagnosis(found: &planner::Diagnosis) -> Diagnosis {
         key: limit.key.clone(),
         component: limit.component.clone(),
         bound: bounds(&limit.bound),
+        unit: limit.unit.into(),
         excess: limit.excess,
         smallest_bound: bounds(&limit.smallest_bound),
     };

@@ -179,6 +179,9 @@ pub struct LimitFinding {
     pub component: String,
     /// The bound as given.
     pub bound: [Option<f64>; 2],
+    /// Unit of bounds and excess; empty in files that do not say.
+    #[serde(default)]
+    pub unit: String,
     /// How much it must give way at least.
     #[serde(with = "number")]
     pub excess: f64,

@@ -84,8 +84,10 @@ def differences(found: Any, kept: Any, where: str) -> list[str]:
             return [f"{where}: {found} instead of {kept}"]
         return []
     if isinstance(found, list):
-        lines = [differences(a, b, f"{where}[{i}].") for i, (a, b) in enumerate(zip(found, kept))]
-        return sum(lines, []) + ([f"{where}: other length"] if len(found) != len(kept) else [])
+        if len(found) != len(kept):
+            return [f"{where}: other length"]
+        pairs = enumerate(zip(found, kept, strict=True))
+        return [line for i, (a, b) in pairs for line in differences(a, b, f"{where}[{i}].")]
     return [] if found == kept else [f"{where}: {found} instead of {kept}"]
 
 

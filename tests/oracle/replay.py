@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -52,7 +53,7 @@ def replay(
 
     poses = [(rotation, position)]
     y = np.append(position, Rotation.from_matrix(rotation).as_quat())
-    for begin, end in zip(times, times[1:]):
+    for begin, end in pairwise(times):
         result = solve_ivp(derivative, (begin, end), y, method="DOP853", rtol=1e-12, atol=1e-14)
         if not result.success:
             raise RuntimeError(result.message)

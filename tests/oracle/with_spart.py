@@ -4,8 +4,11 @@ SPART's base frame is at the base's mass centre; its base velocity is the angula
 axes followed by that of the mass centre in inertial axes. Its Python port has no function for the
 inertia matrix, whose columns are the forces of inverse dynamics for unit accelerations.
 
-Inverse dynamics in SPARTpy 1.1.3 sums over as many bodies as joints move, so that with fixed joints
-the last bodies have no inertia (ID_C.c). Fixed joints are therefore given as ones that stay at zero.
+Two faults of SPARTpy 1.1.3 are gone around:
+- Inverse dynamics (ID_C.c) sums over as many bodies as joints move: with fixed joints the last
+  bodies have no inertia. Fixed joints are given as ones that stay at zero.
+- Velocities (Velocities_C.c) takes the body before for the parent, which is wrong where an
+  arm branches. Accelerations from rest map alike and know the parent; they are used in its place.
 """
 
 from __future__ import annotations
@@ -70,8 +73,9 @@ class Spart:
         geometry = spart.diff_kinematics(rotation, base, links, axes, arms)
         bij, bi0, p0, pm = geometry
         i0, im = spart.i_i(rotation, turns)
-        motion = velocity[:6], velocity[6:]
-        t0, tl = spart.velocities(bij, bi0, p0, pm, *motion)
+        rest = np.zeros(6), np.zeros((6, self.bodies)), p0, pm, bi0, bij
+        motion = velocity[:6].copy(), velocity[6:].copy()
+        t0, tl = spart.accelerations(*rest, np.zeros(6), np.zeros(self.bodies), *motion)
         none = np.zeros(6), np.zeros((6, self.bodies))
         columns = []
         for column in accelerations.T:
