@@ -45,6 +45,28 @@ fn a_still_arm_tumbles_and_drifts_as_one_body() {
 }
 
 #[test]
+fn a_base_that_pitches_to_the_singularity_is_told_of() {
+    let mut problem = Problem::new("pitching", trees::chain(3, 12), 8.0, &[0.0; 3], &[0.1; 3]);
+    problem.cost.joint_rate = vec![1.0; 3];
+    problem.cost.control = vec![0.1; 3];
+    problem.mesh.max_iterations = 1;
+    problem.solver.max_iterations = 60;
+    let calm = plan(&problem).unwrap();
+    assert!(calm.warnings.is_empty(), "{:?}", calm.warnings);
+    // Momentum about y turns the base over in a few seconds.
+    problem.task.initial_momentum.angular = vec![0.0, 8.0, 0.0];
+    let turned = plan(&problem).unwrap();
+    assert!(
+        turned
+            .warnings
+            .iter()
+            .any(|w| w.contains("roll-pitch-yaw is singular")),
+        "{:?}",
+        turned.warnings
+    );
+}
+
+#[test]
 fn plans_with_momentum_are_what_the_full_dynamics_do() {
     let mut plane = problems::smooth();
     plane.task.initial_momentum.linear = vec![0.3, 0.2];

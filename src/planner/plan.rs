@@ -137,6 +137,8 @@ pub struct Plan {
     pub metrics: Metrics,
     /// Why there is no plan; only where the status is infeasible.
     pub diagnosis: Option<Diagnosis>,
+    /// What a user should know before using the plan, a sentence each.
+    pub warnings: Vec<String>,
     /// Where the time went.
     pub timing: Timing,
 }

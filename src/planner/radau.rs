@@ -2,7 +2,9 @@
 
 use super::guess::{JointPath, along};
 use super::trajectory::{metrics, trajectory};
-use super::{Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, diagnosis};
+use super::{
+    Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, Trajectory, diagnosis,
+};
 use crate::collocation::MeshError;
 use crate::dynamics::attitude::Attitude;
 use crate::nlp::{self, Control, Nlp, ipopt};
@@ -174,6 +176,7 @@ impl Planner {
             outcome.max_error()
         };
         let trajectory = trajectory(system, &outcome.trajectory);
+        let warnings = near_singularity(&trajectory).into_iter().collect();
         Ok(Plan {
             status,
             method: problem.mesh.method,
@@ -187,6 +190,7 @@ impl Planner {
             iterate: outcome.iterate,
             trajectory,
             diagnosis: finding,
+            warnings,
         })
     }
 
@@ -246,6 +250,27 @@ fn cost_of<Sp: Attitude>(
     let mut program = Transcription::new(system, patterns, trajectory.mesh.clone());
     let x = program.pack(trajectory);
     program.objective(&x).unwrap_or(f64::NAN)
+}
+
+/// Base pitch beyond which roll-pitch-yaw rates are more than ten times the base's own, rad.
+const STEEP: f64 = 1.47;
+
+/// A word about roll-pitch-yaw where the base comes close to its singularity, ψ = ±π/2.
+fn near_singularity(trajectory: &Trajectory) -> Option<String> {
+    let pitch = |eta: &Vec<f64>| if eta.len() == 3 { eta[1].abs() } else { 0.0 };
+    let steepest = trajectory
+        .base_attitude
+        .iter()
+        .map(pitch)
+        .fold(0.0, f64::max);
+    (steepest > STEEP).then(|| {
+        format!(
+            "the base pitches to {:.1}°, and roll-pitch-yaw is singular at 90°: roll and yaw \
+             there are not to be relied on, nor may a failure to converge say anything about the \
+             task; keep the pitch away by limits.base_attitude, or turn the base frame",
+            steepest.to_degrees()
+        )
+    })
 }
 
 fn check_start<Sp: Attitude>(start: &Start, problem: &Problem) -> Result<(), PlanError> {

@@ -34,6 +34,7 @@ pub fn solution(
         metrics: metrics(&plan.metrics),
         verification: checked.map(verification),
         diagnosis: plan.diagnosis.as_ref().map(diagnosis),
+        warnings: plan.warnings.clone(),
         timing: timing(&plan.timing),
         provenance,
         iterate: iterate(&plan.iterate),

@@ -39,6 +39,9 @@ pub struct Solution {
     pub verification: Option<Verification>,
     /// Why there is no plan; null unless infeasible.
     pub diagnosis: Option<Diagnosis>,
+    /// What a user should know before using the plan.
+    #[serde(default)]
+    pub warnings: Vec<String>,
     /// Where the time went.
     pub timing: Timing,
     /// What was solved by what.

@@ -27,6 +27,9 @@ pub fn summary(
     if let Some(found) = checked {
         verification(&mut lines, &problem.robot, found);
     }
+    for warning in &plan.warnings {
+        lines.add("warning", warning);
+    }
     let time = &plan.timing;
     lines.add(
         "time",

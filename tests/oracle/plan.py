@@ -98,9 +98,11 @@ def load(path: Path) -> Plan:
     source = solution["provenance"]
     if any(text.partition("=")[0].split(".")[0] in ("robot", "base") for text in _settings(source)):
         raise ValueError(f"{path}: the robot was changed on the command line")
+    if "momentum" in source["problem"]["text"] or "momentum" in str(_settings(source)):
+        raise ValueError(f"{path}: only systems without momentum are replayed here")
     robot_file = source["robot"]
     suffix = Path(robot_file["path"]).suffix
-    robot = read(source["problem"]["text"], suffix, robot_file["text"]).robot
+    robot = read(source["problem"]["text"], suffix, robot_file["text"])
 
     rows = {key: np.array(values) for key, values in solution["trajectory"].items()}
     attitude, position = rows["base_attitude"], rows["base_position"]

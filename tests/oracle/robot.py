@@ -67,11 +67,14 @@ def load(path: Path) -> Problem:
     text = path.read_text()
     entry = tomllib.loads(text)["robot"]
     file = path.parent / (entry["file"] if isinstance(entry, dict) else entry)
-    return read(text, file.suffix, file.read_text())
+    robot = read(text, file.suffix, file.read_text())
+    names = [joint.name for joint in robot.joints if joint.kind != "fixed"]
+    task = tomllib.loads(text)["task"]
+    return Problem(robot, *(_by_joint(task[end]["joints"], names) for end in ("initial", "final")))
 
 
-def read(problem_text: str, robot_suffix: str, robot_text: str) -> Problem:
-    """The problem in a text; the robot's text is TOML or URDF by its file's suffix."""
+def read(problem_text: str, robot_suffix: str, robot_text: str) -> Robot:
+    """The robot of a problem's text; its own text is TOML or URDF by its file's suffix."""
     problem = tomllib.loads(problem_text)
     entry = problem["robot"] if isinstance(problem["robot"], dict) else {}
     reader = _from_toml if robot_suffix == ".toml" else _from_urdf
@@ -82,10 +85,7 @@ def read(problem_text: str, robot_suffix: str, robot_text: str) -> Problem:
             "spacecraft", "fixed", None, ZERO, ZERO, (0, 0, 1), _body(problem["base"])
         )
         joints.append(spacecraft)
-    robot = Robot(name, base, _depth_first(joints))
-    names = [joint.name for joint in robot.joints if joint.kind != "fixed"]
-    task = problem["task"]
-    return Problem(robot, *(_by_joint(task[end]["joints"], names) for end in ("initial", "final")))
+    return Robot(name, base, _depth_first(joints))
 
 
 def _locked(joint: Joint, locks: dict[str, float]) -> Joint:
