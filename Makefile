@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 bench lint doc demo fresh table2 clean
+.PHONY: help build test test-ipopt-3.14 oracle bench lint doc urdf-real demo fresh table2 clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -14,6 +14,9 @@ test: ## run every test in release
 test-ipopt-3.14: ## run the tests against a newer Ipopt, 3.14
 	scripts/ipopt-3.14.sh
 
+oracle: ## hold plans and golden values against Pinocchio, SPART and MuJoCo
+	scripts/oracle.sh
+
 bench: ## run the benchmarks
 	cargo bench --locked
 
@@ -23,6 +26,9 @@ lint: ## check the formatting and run clippy, warnings being errors
 
 doc: ## build the API documentation
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --release --locked
+
+urdf-real: ## plan motions of real robots from their unedited URDF files
+	scripts/urdf-real.sh
 
 demo: ## plan the example trajectory
 	scripts/demo.sh

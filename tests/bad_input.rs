@@ -79,15 +79,6 @@ fn missing_robot_file() {
 }
 
 #[test]
-fn urdf_robot() {
-    assert_eq!(
-        problem("\"robot.toml\"", "\"arm.urdf\""),
-        "case.toml:3: robot: URDF robots are not read yet; expected a robot file in TOML, as \
-         docs/robot-file.md describes"
-    );
-}
-
-#[test]
 fn toml_syntax() {
     let found = problem("duration = 20.0", "duration = = 20.0");
     assert!(found.starts_with("case.toml:6: not TOML: "), "{found}");

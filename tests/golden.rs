@@ -159,5 +159,5 @@ fn optimum_of_the_dual_arm_spacecraft() {
 
 #[test]
 fn optimum_of_the_odd_tree() {
-    assert_optimum("tests/data/odd-tree.toml", 0.077_955_8);
+    assert_optimum("tests/data/odd-tree.toml", 0.077_955_81);
 }

@@ -30,10 +30,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     limits(&mut lines, problem);
     cost(&mut lines, problem);
     mesh(&mut lines, problem);
+    let notes: String = file.notes.iter().map(|n| format!("note: {n}\n")).collect();
     terminal::print(&format!(
-        "{}: valid\n\n{}\n{}\n",
+        "{}: valid\n\n{}\n{}{}{}\n",
         file.path,
         lines.finish(),
+        notes,
+        if notes.is_empty() { "" } else { "\n" },
         straight(problem)
     ))?;
     Ok(Outcome::Done)

@@ -83,6 +83,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let default = || Path::new("out").join(&file.problem.name);
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
 
+    if !arguments.quiet {
+        for note in &file.notes {
+            terminal::warn(&format!("note: {note}"));
+        }
+    }
+
     interrupt::listen();
     let mut progress = Progress::start(&file.problem.name, arguments.quiet);
     let plan = Planner::new().plan_with(&file.problem, start.as_ref(), &mut |event| {

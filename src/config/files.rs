@@ -12,7 +12,7 @@ pub(super) enum Files {
 }
 
 /// The shipped files by their paths.
-const SHIPPED: [(&str, &str); 4] = [
+const SHIPPED: [(&str, &str); 7] = [
     (
         "config/table1.toml",
         include_str!("../../config/table1.toml"),
@@ -24,6 +24,18 @@ const SHIPPED: [(&str, &str); 4] = [
     (
         "config/table1-smooth.toml",
         include_str!("../../config/table1-smooth.toml"),
+    ),
+    (
+        "config/chaser-7dof.toml",
+        include_str!("../../config/chaser-7dof.toml"),
+    ),
+    (
+        "config/chaser-7dof-heavy.toml",
+        include_str!("../../config/chaser-7dof-heavy.toml"),
+    ),
+    (
+        "config/robots/chaser-7dof.urdf",
+        include_str!("../../config/robots/chaser-7dof.urdf"),
     ),
     (
         "config/robots/planar-2link.toml",

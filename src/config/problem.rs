@@ -3,10 +3,9 @@
 use super::document::{Node, quoted};
 use super::files::Files;
 use super::item::{Item, Section};
-use super::robot::{self, RobotFile};
+use super::robot::{self, Robot, RobotFile};
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, inertia, tables};
-use crate::dynamics::{Body, Model};
 use crate::planner::{Problem, ProblemError};
 use std::path::Path;
 
@@ -23,6 +22,8 @@ pub struct ProblemFile {
     pub overrides: Vec<String>,
     /// The robot's file.
     pub robot: RobotFile,
+    /// What a user should know of how the files were read, though nothing is wrong; a line each.
+    pub notes: Vec<String>,
     document: Node,
 }
 
@@ -59,15 +60,42 @@ impl ProblemFile {
         overrides.apply(&mut document)?;
         let (problem, robot) = read(&document, path, files)?;
         let file = Self {
+            notes: robot.notes(&problem),
             problem,
             path: source,
             text,
             overrides: overrides.flags(),
-            robot,
+            robot: robot.file,
             document,
         };
         file.problem.validate().map_err(|error| file.blame(error))?;
+        file.refuse_singular()?;
         Ok(file)
+    }
+
+    /// Refuses a start or goal at which joints can move without moving any mass, as with bodies
+    /// that have none: no torque belongs to a motion there.
+    fn refuse_singular(&self) -> Result<(), ConfigError> {
+        let Problem { robot, task, .. } = &self.problem;
+        let mut ends = vec![("task.initial.joints", &task.initial_joints)];
+        if !task.free_joints.contains(&true) {
+            ends.push(("task.final.joints", &task.final_joints));
+        }
+        for (key, joints) in ends {
+            if let Some(joint) = robot.inert_joint(joints) {
+                return Err(self.blame(ProblemError {
+                    key: key.into(),
+                    found: format!(
+                        "joint '{}' can move there without moving any mass",
+                        robot.joints()[joint].name
+                    ),
+                    expected: "positions at which bodies without mass do not make joints \
+                               interchangeable"
+                        .into(),
+                }));
+            }
+        }
+        Ok(())
     }
 
     /// Where a key (`limits.joint_velocity[1]`) is given, or the nearest table around it.
@@ -91,7 +119,7 @@ impl ProblemFile {
     }
 }
 
-fn read(document: &Node, path: &Path, files: Files) -> Result<(Problem, RobotFile), ConfigError> {
+fn read(document: &Node, path: &Path, files: Files) -> Result<(Problem, Robot), ConfigError> {
     let root = Item::root(document).section(&[
         "schema", "name", "robot", "base", "task", "limits", "cost", "mesh", "solver",
     ])?;
@@ -99,10 +127,11 @@ fn read(document: &Node, path: &Path, files: Files) -> Result<(Problem, RobotFil
     let name = name(&root, path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let expected = "the path of a robot file, relative to this one";
-    let (mut model, robot) = robot::read(root.require("robot", expected)?, folder, &files)?;
+    let mut robot = robot::read(root.require("robot", expected)?, folder, &files)?;
     if let Some(item) = root.get("base") {
-        model = with_spacecraft(item, &model)?;
+        robot.attach(&inertia::read(&item.section(&["mass", "com", "inertia"])?)?);
     }
+    let model = robot.model()?;
 
     let (angles, lengths) = Problem::base_sizes(&model);
     let names = model
@@ -152,24 +181,4 @@ fn name(root: &Section<'_>, path: &Path) -> Result<String, ConfigError> {
         return Err(item.error(quoted(name), expected));
     }
     Ok(name.into())
-}
-
-/// `[base]`: a spacecraft rigidly attached to the robot's root link.
-fn with_spacecraft(item: &Item<'_>, model: &Model) -> Result<Model, ConfigError> {
-    let spacecraft = inertia::read(&item.section(&["mass", "com", "inertia"])?)?;
-    let base = Body {
-        name: model.base().name.clone(),
-        inertia: model.base().inertia.lumped(&spacecraft),
-    };
-    let lumped = Model::new(model.name(), base, model.joints().to_vec()).map_err(|source| {
-        ConfigError::Model {
-            place: item.node.place.clone(),
-            key: item.key.clone(),
-            source,
-        }
-    })?;
-    Ok(match model.end_effector() {
-        Some((joint, placement)) => lumped.with_end_effector(*joint, placement.clone()),
-        None => lumped,
-    })
 }

@@ -8,6 +8,9 @@ pub enum InertiaError {
     /// Mass is zero, negative or not finite.
     #[error("mass is {0} kg, expected a finite number above zero")]
     Mass(f64),
+    /// No mass, and yet an inertia.
+    #[error("mass is zero but inertia is not, expected both above zero or both zero")]
+    SpinWithoutMass,
     /// The mass centre is not finite.
     #[error("mass centre {0:?} m is not finite")]
     Center([f64; 3]),
@@ -38,6 +41,9 @@ pub enum InertiaError {
     Triangle(f64, f64, f64),
 }
 
+/// Square of a radius of gyration, m², below which a body counts as a point.
+const NEGLIGIBLE: f64 = 1e-15;
+
 /// Mass, mass centre and rotational inertia of a rigid body, in its own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inertia {
@@ -57,7 +63,27 @@ impl Inertia {
         center: Vector3<f64>,
         rotational: Matrix3<f64>,
     ) -> Result<Self, InertiaError> {
-        if !(mass.is_finite() && mass > 0.0) {
+        if mass == 0.0 {
+            return Err(InertiaError::Mass(mass));
+        }
+        let inertia = Self::part(mass, center, rotational)?;
+        match inertia.moments()[0] {
+            least if least <= 0.0 => Err(InertiaError::NotPositiveDefinite(least)),
+            _ => Ok(inertia),
+        }
+    }
+
+    /// Like [`Inertia::new`], but also for what is less than a body: nothing at all, a point mass
+    /// or a thin rod, as a part of a body or as a link between two joints.
+    ///
+    /// # Errors
+    /// [`InertiaError`] where no distribution of mass has these figures.
+    pub fn part(
+        mass: f64,
+        center: Vector3<f64>,
+        rotational: Matrix3<f64>,
+    ) -> Result<Self, InertiaError> {
+        if !(mass.is_finite() && mass >= 0.0) {
             return Err(InertiaError::Mass(mass));
         }
         if center.iter().any(|c| !c.is_finite()) {
@@ -77,22 +103,50 @@ impl Inertia {
                 });
             }
         }
-        let rotational = (rotational + rotational.transpose()) * 0.5;
-        let mut moments: [f64; 3] = SymmetricEigen::new(rotational).eigenvalues.into();
-        moments.sort_by(f64::total_cmp);
-        let [a, b, c] = moments;
-        if a <= 0.0 {
+        if mass == 0.0 {
+            return match scale {
+                0.0 => Ok(Self::massless()),
+                _ => Err(InertiaError::SpinWithoutMass),
+            };
+        }
+        let inertia = Self {
+            mass,
+            center,
+            rotational: (rotational + rotational.transpose()) * 0.5,
+        };
+        let [a, b, c] = inertia.moments();
+        // What rounding leaves of a moment that is zero.
+        let rounding = 1e-12 * scale + NEGLIGIBLE * mass;
+        if a < -rounding {
             return Err(InertiaError::NotPositiveDefinite(a));
         }
         // Published figures are rounded; a thin rod sits right on the limit.
-        if c > (a + b) * (1.0 + 1e-3) {
+        if c > (a + b) * (1.0 + 1e-3) + rounding {
             return Err(InertiaError::Triangle(a, b, c));
         }
-        Ok(Self {
-            mass,
-            center,
-            rotational,
-        })
+        Ok(inertia)
+    }
+
+    /// No mass at all: a frame.
+    pub fn massless() -> Self {
+        Self {
+            mass: 0.0,
+            center: Vector3::zeros(),
+            rotational: Matrix3::zeros(),
+        }
+    }
+
+    /// Whether it resists every motion: it has mass, and inertia about every axis.
+    pub fn is_solid(&self) -> bool {
+        let [least, _, largest] = self.moments();
+        self.mass > 0.0 && least > 1e-9 * largest + NEGLIGIBLE * self.mass
+    }
+
+    /// Principal moments, kg m², the smallest first.
+    fn moments(&self) -> [f64; 3] {
+        let mut moments: [f64; 3] = SymmetricEigen::new(self.rotational).eigenvalues.into();
+        moments.sort_by(f64::total_cmp);
+        moments
     }
 
     /// Mass, kg.
@@ -122,6 +176,9 @@ impl Inertia {
     /// Two bodies welded together, both given in the same frame.
     pub fn lumped(&self, other: &Self) -> Self {
         let mass = self.mass + other.mass;
+        if mass == 0.0 {
+            return Self::massless();
+        }
         let center = (self.center * self.mass + other.center * other.mass) / mass;
         let shifted = |part: &Self| {
             let r = part.center - center;

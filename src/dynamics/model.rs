@@ -1,6 +1,7 @@
 //! The robot as its maker describes it: a tree of bodies joined by one-axis joints.
 
-use super::{Inertia, InertiaError, Plane, planarity};
+use super::planarity::{self, Deviation, Plane};
+use super::{Inertia, InertiaError, inertness};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 /// Pose of a frame in another: rotation and translation (m).
@@ -26,6 +27,14 @@ impl Placement {
         Self {
             rotation: Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]).into_inner(),
             translation: xyz.into(),
+        }
+    }
+
+    /// The pose of a frame whose pose in this one is `inner`.
+    pub fn then(&self, inner: &Self) -> Self {
+        Self {
+            rotation: self.rotation * inner.rotation,
+            translation: self.translation + self.rotation * inner.translation,
         }
     }
 }
@@ -102,6 +111,28 @@ pub enum ModelError {
         /// Name of the joint.
         joint: String,
     },
+    /// A base that cannot carry anything.
+    #[error(
+        "base '{body}' {}; the base needs mass, and inertia about every axis",
+        if *.mass == 0.0 { "has no mass" } else { "is a point mass or a thin rod" }
+    )]
+    Base {
+        /// Name of the body.
+        body: String,
+        /// Its mass, kg.
+        mass: f64,
+    },
+    /// A joint that moves nothing: its rate has no effect on anything.
+    #[error(
+        "joint '{joint}' can move without moving any mass: too little mass or inertia in body \
+         '{body}' and what it carries"
+    )]
+    Inert {
+        /// Name of the joint.
+        joint: String,
+        /// Name of the body it moves.
+        body: String,
+    },
     /// A body's mass properties.
     #[error("body '{body}': {source}")]
     Inertia {
@@ -126,7 +157,8 @@ impl Model {
     /// A robot from its base body and its joints, listed from the base outwards.
     ///
     /// # Errors
-    /// [`ModelError`] for no joints, names given twice or a joint before its parent.
+    /// [`ModelError`] for no joints, names given twice, a joint before its parent, a base or a
+    /// joint without inertia. Bodies between two joints may be massless.
     pub fn new(name: &str, base: Body, joints: Vec<Joint>) -> Result<Self, ModelError> {
         if joints.is_empty() {
             return Err(ModelError::NoJoints(name.into()));
@@ -145,14 +177,27 @@ impl Model {
                 return Err(ModelError::DuplicateName(body.clone()));
             }
         }
+        if !base.inertia.is_solid() {
+            return Err(ModelError::Base {
+                mass: base.inertia.mass(),
+                body: base.name,
+            });
+        }
         let plane = planarity::detect(&base, &joints);
-        Ok(Self {
+        let model = Self {
             name: name.into(),
             base,
             joints,
             end_effector: None,
             plane,
-        })
+        };
+        match inertness::always(&model) {
+            Some(j) => Err(ModelError::Inert {
+                joint: model.joints[j].name.clone(),
+                body: model.joints[j].body.name.clone(),
+            }),
+            None => Ok(model),
+        }
     }
 
     /// The same robot with an end-effector frame, placed in the body of a joint (or the base).
@@ -197,6 +242,20 @@ impl Model {
     /// The plane of motion, where all motion stays in one.
     pub fn plane(&self) -> Option<&Plane> {
         self.plane.as_ref()
+    }
+
+    /// How far the robot is from moving in a plane; `None` where no joint turns.
+    pub fn deviation_from_plane(&self) -> Option<Deviation> {
+        planarity::measure(&self.base, &self.joints).map(|(_, deviation)| deviation)
+    }
+
+    /// The first joint that, together with those before it, can move at the joint positions `q`
+    /// (rad or m, length n) without moving any mass; `None` where there is none, as in all robots
+    /// whose bodies all have mass and size.
+    ///
+    /// The reduced inertia matrix H is singular there.
+    pub fn inert_joint(&self, q: &[f64]) -> Option<usize> {
+        inertness::at(self, q)
     }
 
     /// Mass of all bodies together, kg.

@@ -13,11 +13,36 @@ pub struct Plane {
     pub basis: Matrix3<f64>,
 }
 
+/// By how much a robot misses planar motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// Largest angle between a turning axis and the normal, or a sliding axis and the plane, rad.
+    pub tilt: f64,
+    /// Largest distance of a mass centre from the plane of the base's, m.
+    pub height: f64,
+    /// Largest product of inertia about the normal, relative to the body's largest moment.
+    pub product: f64,
+}
+
+impl Deviation {
+    /// Whether none of the three exceeds `tolerance` (rad, m, relative).
+    pub fn within(&self, tolerance: f64) -> bool {
+        self.tilt < tolerance && self.height < tolerance && self.product < tolerance
+    }
+}
+
 /// The plane of motion, or `None` where the base would leave it.
 ///
 /// Parallel axes alone are not enough: a body with products of inertia about the axis, or mass
 /// centres at different heights along it, would tip the base out of the plane.
 pub(super) fn detect(base: &Body, joints: &[Joint]) -> Option<Plane> {
+    let (plane, deviation) = measure(base, joints)?;
+    deviation.within(TOLERANCE).then_some(plane)
+}
+
+/// The plane across the first turning axis and how far the robot is from moving in it; `None`
+/// where no joint turns.
+pub(super) fn measure(base: &Body, joints: &[Joint]) -> Option<(Plane, Deviation)> {
     let poses = zero_poses(joints);
     let axes: Vec<Vector3<f64>> = joints
         .iter()
@@ -29,26 +54,36 @@ pub(super) fn detect(base: &Body, joints: &[Joint]) -> Option<Plane> {
     let normal = axes[first] * axes[first][axes[first].iamax()].signum();
     let basis = basis(&normal);
 
-    let planar_joint = |(joint, axis): (&Joint, &Vector3<f64>)| match joint.kind {
-        JointKind::Revolute => axis.cross(&normal).norm() < TOLERANCE,
-        JointKind::Prismatic => axis.dot(&normal).abs() < TOLERANCE,
-    };
     let height = normal.dot(base.inertia.center());
-    let planar_body = |inertia: Inertia| {
+    let mut deviation = Deviation {
+        tilt: 0.0,
+        height: 0.0,
+        product: 0.0,
+    };
+    for (joint, axis) in joints.iter().zip(&axes) {
+        let sine = match joint.kind {
+            JointKind::Revolute => axis.cross(&normal).norm(),
+            JointKind::Prismatic => axis.dot(&normal).abs(),
+        };
+        deviation.tilt = deviation.tilt.max(sine.min(1.0).asin());
+    }
+    let mut add = |inertia: &Inertia| {
+        if inertia.mass() == 0.0 {
+            return;
+        }
         let products = basis.transpose() * inertia.rotational() * normal;
         let scale = inertia.rotational().amax();
-        products.xy().amax() < TOLERANCE * scale
-            && (normal.dot(inertia.center()) - height).abs() < TOLERANCE
+        if scale > 0.0 {
+            deviation.product = deviation.product.max(products.xy().amax() / scale);
+        }
+        let off = (normal.dot(inertia.center()) - height).abs();
+        deviation.height = deviation.height.max(off);
     };
-    let planar = joints.iter().zip(&axes).all(planar_joint)
-        && planar_body(base.inertia.clone())
-        && joints
-            .iter()
-            .zip(&poses)
-            .all(|(joint, (rotation, origin))| {
-                planar_body(joint.body.inertia.placed(rotation, origin))
-            });
-    planar.then_some(Plane { basis })
+    add(&base.inertia);
+    for (joint, (rotation, origin)) in joints.iter().zip(&poses) {
+        add(&joint.body.inertia.placed(rotation, origin));
+    }
+    Some((Plane { basis }, deviation))
 }
 
 /// Rotation and origin of every body frame in the base frame with all joints at zero.

@@ -11,7 +11,7 @@ pub struct Lines {
 impl Lines {
     /// Adds a line.
     pub fn add(&mut self, label: &str, value: impl AsRef<str>) {
-        let line = format!("  {label:<20}{}", value.as_ref());
+        let line = format!("  {label:<19} {}", value.as_ref());
         // Writing to a string cannot fail.
         let _ = writeln!(self.text, "{}", line.trim_end());
     }

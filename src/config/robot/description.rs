@@ -1,123 +1,220 @@
-//! A robot as described, before it becomes a model: joints can be locked and renamed.
+//! A robot as described, before it becomes a model: bodies can be welded together, joints locked.
 
-use crate::dynamics::{Body, Joint, JointKind, Model, ModelError, Placement};
+use crate::config::{ConfigError, Place};
+use crate::dynamics::{Body, Inertia, Joint, JointKind, Model, ModelError, Placement};
 use nalgebra::Rotation3;
+
+/// A joint as its file describes it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Entry {
+    pub joint: Joint,
+    /// Where it is described.
+    pub place: Place,
+    /// What its file should say on its limits and does not.
+    pub unlimited: Unlimited,
+    /// Why it cannot move by itself, unless it is locked.
+    pub refusal: Option<ConfigError>,
+}
+
+impl Entry {
+    /// A joint of which all is known.
+    pub(super) fn new(joint: Joint, place: Place) -> Self {
+        Self {
+            joint,
+            place,
+            unlimited: Unlimited::default(),
+            refusal: None,
+        }
+    }
+}
+
+/// Limits that are taken as infinite because the file leaves them out.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Unlimited {
+    pub position: bool,
+    pub velocity: bool,
+    pub effort: bool,
+}
+
+/// A named frame that is no body of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Frame {
+    pub name: String,
+    /// The joint whose body carries it; `None` for the base.
+    pub carrier: Option<usize>,
+    /// Its pose in that body's frame.
+    pub placement: Placement,
+}
 
 /// Joints in any order in which parents come first.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Description {
     pub name: String,
     pub base: Body,
-    pub joints: Vec<Joint>,
+    pub joints: Vec<Entry>,
+    /// Bodies that have become part of others.
+    pub frames: Vec<Frame>,
     pub end_effector: Option<(Option<usize>, Placement)>,
 }
 
 impl Description {
+    /// A robot without joints.
+    pub(super) fn new(name: &str, base: Body) -> Self {
+        Self {
+            name: name.into(),
+            base,
+            joints: Vec::new(),
+            frames: Vec::new(),
+            end_effector: None,
+        }
+    }
+
     /// Names of the joints that can move.
     pub(super) fn joint_names(&self) -> Vec<&str> {
         self.joints
             .iter()
-            .map(|joint| joint.name.as_str())
+            .map(|entry| entry.joint.name.as_str())
             .collect()
     }
 
-    /// Index of the joint that moves the body `name`, or of the joint of that name; the base
-    /// is `Some(None)`.
-    pub(super) fn carrier(&self, name: &str) -> Option<Option<usize>> {
+    /// Where the body `name` is, or the body moved by the joint of that name: the joint that
+    /// carries it (`None` for the base) and the pose in that joint's body.
+    pub(super) fn find(&self, name: &str) -> Option<(Option<usize>, Placement)> {
         if self.base.name == name {
-            return Some(None);
+            return Some((None, Placement::identity()));
         }
-        let position = |f: fn(&Joint) -> &str| self.joints.iter().position(|j| f(j) == name);
-        position(|joint| &joint.body.name)
-            .or_else(|| position(|joint| &joint.name))
-            .map(Some)
+        let position =
+            |f: fn(&Joint) -> &str| self.joints.iter().position(|entry| f(&entry.joint) == name);
+        if let Some(joint) = position(|joint| &joint.body.name) {
+            return Some((Some(joint), Placement::identity()));
+        }
+        if let Some(frame) = self.frames.iter().find(|frame| frame.name == name) {
+            return Some((frame.carrier, frame.placement.clone()));
+        }
+        position(|joint| &joint.name).map(|joint| (Some(joint), Placement::identity()))
     }
 
-    /// The names [`Description::carrier`] knows, for a message.
+    /// The names [`Description::find`] knows, for a message.
     pub(super) fn expected_names(&self) -> String {
-        let bodies = self.joints.iter().map(|joint| joint.body.name.as_str());
-        let names: Vec<&str> = std::iter::once(self.base.name.as_str())
+        let bodies = self.joints.iter().map(|entry| &entry.joint.body.name);
+        let frames = self.frames.iter().map(|frame| &frame.name);
+        let names: Vec<&str> = std::iter::once(&self.base.name)
             .chain(bodies)
+            .chain(frames)
+            .map(String::as_str)
             .collect();
         format!("a body or joint of the robot: {}", names.join(", "))
     }
 
     /// Puts the end effector at the frame of a body; false where there is no such body.
     pub(super) fn set_end_effector(&mut self, name: &str) -> bool {
-        let carrier = self.carrier(name);
-        if let Some(carrier) = carrier {
-            self.end_effector = Some((carrier, Placement::identity()));
-        }
-        carrier.is_some()
+        let found = self.find(name);
+        let known = found.is_some();
+        self.end_effector = found.or(self.end_effector.take());
+        known
+    }
+
+    /// Makes `part` one with the body of the joint `carrier` (or the base), in whose frame it has
+    /// the given placement. Its frame is still known by its name.
+    pub(super) fn weld(&mut self, part: Body, carrier: Option<usize>, placement: Placement) {
+        let moved = part
+            .inertia
+            .placed(&placement.rotation, &placement.translation);
+        self.add(&moved, carrier);
+        self.frames.push(Frame {
+            name: part.name,
+            carrier,
+            placement,
+        });
+    }
+
+    /// Adds mass to the base, given in its frame.
+    pub(super) fn load_base(&mut self, inertia: &Inertia) {
+        self.add(inertia, None);
+    }
+
+    fn add(&mut self, inertia: &Inertia, carrier: Option<usize>) {
+        let body = match carrier {
+            Some(joint) => &mut self.joints[joint].joint.body,
+            None => &mut self.base,
+        };
+        body.inertia = body.inertia.lumped(inertia);
     }
 
     /// Welds the joint `name` at `position` (rad or m): its body becomes part of the one that
     /// carries it. False where there is no such joint.
     pub(super) fn lock(&mut self, name: &str, position: f64) -> bool {
-        let Some(locked) = self.joints.iter().position(|joint| joint.name == name) else {
+        let Some(locked) = self.joints.iter().position(|e| e.joint.name == name) else {
             return false;
         };
-        let joint = self.joints.remove(locked);
-        let weld = compose(&joint.placement, &motion(&joint, position));
-        let part = joint.body.inertia.placed(&weld.rotation, &weld.translation);
-        let carrier = match joint.parent {
-            Some(parent) => &mut self.joints[parent].body,
-            None => &mut self.base,
-        };
-        carrier.inertia = carrier.inertia.lumped(&part);
+        let joint = self.joints.remove(locked).joint;
+        let weld = joint.placement.then(&motion(&joint, position));
         let moved = |parent: Option<usize>, placement: &mut Placement| match parent {
             Some(p) if p == locked => {
-                *placement = compose(&weld, placement);
+                *placement = weld.then(placement);
                 joint.parent
             }
             Some(p) if p > locked => Some(p - 1),
             other => other,
         };
-        for child in &mut self.joints {
+        for Entry { joint: child, .. } in &mut self.joints {
             child.parent = moved(child.parent, &mut child.placement);
+        }
+        for frame in &mut self.frames {
+            frame.carrier = moved(frame.carrier, &mut frame.placement);
         }
         if let Some((parent, placement)) = &mut self.end_effector {
             *parent = moved(*parent, placement);
         }
+        self.weld(joint.body, joint.parent, weld);
         true
     }
 
-    /// The model, its joints depth-first in the order of the description.
-    pub(super) fn into_model(self) -> Result<Model, ModelError> {
+    /// Orders the joints depth-first, those of one body in the order of the description.
+    pub(super) fn sort(&mut self) {
         let order = depth_first(&self.joints);
         let mut renumbered = vec![0; order.len()];
         for (new, &old) in order.iter().enumerate() {
             renumbered[old] = new;
         }
-        let joints = order
-            .iter()
-            .map(|&old| {
-                let mut joint = self.joints[old].clone();
-                joint.parent = joint.parent.map(|parent| renumbered[parent]);
-                joint
-            })
-            .collect();
-        let model = Model::new(&self.name, self.base, joints)?;
-        Ok(match self.end_effector {
-            Some((joint, placement)) => {
-                model.with_end_effector(joint.map(|joint| renumbered[joint]), placement)
-            }
+        let renumber = |joint: &mut Option<usize>| *joint = joint.map(|old| renumbered[old]);
+        self.joints = order.iter().map(|&old| self.joints[old].clone()).collect();
+        for entry in &mut self.joints {
+            renumber(&mut entry.joint.parent);
+        }
+        for frame in &mut self.frames {
+            renumber(&mut frame.carrier);
+        }
+        if let Some((parent, _)) = &mut self.end_effector {
+            renumber(parent);
+        }
+    }
+
+    /// The model, its joints in the order they have here.
+    pub(super) fn model(&self) -> Result<Model, ModelError> {
+        let joints = self.joints.iter().map(|entry| entry.joint.clone());
+        let model = Model::new(&self.name, self.base.clone(), joints.collect())?;
+        Ok(match &self.end_effector {
+            Some((joint, placement)) => model.with_end_effector(*joint, placement.clone()),
             None => model,
         })
     }
 }
 
-fn depth_first(joints: &[Joint]) -> Vec<usize> {
-    fn visit(joints: &[Joint], parent: Option<usize>, order: &mut Vec<usize>) {
-        for (child, joint) in joints.iter().enumerate() {
-            if joint.parent == parent {
-                order.push(child);
-                visit(joints, Some(child), order);
-            }
+fn depth_first(joints: &[Entry]) -> Vec<usize> {
+    let mut children = vec![Vec::new(); joints.len()];
+    let mut next = Vec::new();
+    for (child, entry) in joints.iter().enumerate().rev() {
+        match entry.joint.parent {
+            Some(parent) => children[parent].push(child),
+            None => next.push(child),
         }
     }
     let mut order = Vec::with_capacity(joints.len());
-    visit(joints, None, &mut order);
+    while let Some(joint) = next.pop() {
+        order.push(joint);
+        next.append(&mut children[joint]);
+    }
     order
 }
 
@@ -136,18 +233,10 @@ fn motion(joint: &Joint, position: f64) -> Placement {
     }
 }
 
-/// The placement of a frame given in `inner`, itself placed by `outer`.
-fn compose(outer: &Placement, inner: &Placement) -> Placement {
-    Placement {
-        rotation: outer.rotation * inner.rotation,
-        translation: outer.translation + outer.rotation * inner.translation,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::{Inertia, JointLimits};
+    use crate::dynamics::JointLimits;
     use nalgebra::{Matrix3, Vector3};
     use std::f64::consts::FRAC_PI_2;
 
@@ -159,8 +248,12 @@ mod tests {
         }
     }
 
-    fn joint(name: &str, parent: Option<usize>) -> Joint {
-        Joint {
+    fn joint(name: &str, parent: Option<usize>) -> Entry {
+        let place = Place {
+            source: "r.toml".into(),
+            line: None,
+        };
+        let joint = Joint {
             name: name.into(),
             kind: JointKind::Revolute,
             parent,
@@ -168,17 +261,21 @@ mod tests {
             axis: Vector3::z_axis(),
             limits: JointLimits::NONE,
             body: body(&format!("{name}_link")),
+        };
+        Entry::new(joint, place)
+    }
+
+    fn description(joints: Vec<Entry>) -> Description {
+        Description {
+            end_effector: Some((Some(joints.len() - 1), Placement::identity())),
+            joints,
+            ..Description::new("r", body("base"))
         }
     }
 
-    fn description(joints: Vec<Joint>) -> Description {
-        let end_effector = Some((Some(joints.len() - 1), Placement::identity()));
-        Description {
-            name: "r".into(),
-            base: body("base"),
-            joints,
-            end_effector,
-        }
+    fn model(mut robot: Description) -> Model {
+        robot.sort();
+        robot.model().unwrap()
     }
 
     #[test]
@@ -190,7 +287,7 @@ mod tests {
         ]);
         assert!(robot.lock("b", FRAC_PI_2));
         assert!(!robot.lock("b", 0.0));
-        let model = robot.into_model().unwrap();
+        let model = model(robot);
         let carrier = &model.joints()[0].body.inertia;
         assert_eq!(carrier.mass(), 2.0);
         // One mass centre at 0.5, the other half a metre to the side of joint b at 1.
@@ -203,6 +300,23 @@ mod tests {
     }
 
     #[test]
+    fn a_locked_body_keeps_its_name_as_a_frame() {
+        let mut robot = description(vec![
+            joint("a", None),
+            joint("b", Some(0)),
+            joint("c", Some(1)),
+        ]);
+        assert!(robot.lock("b", FRAC_PI_2));
+        assert!(robot.lock("a", 0.0));
+        let (carrier, placement) = robot.find("b_link").unwrap();
+        assert_eq!(carrier, None);
+        assert!((placement.translation - Vector3::new(2.0, 0.0, 0.0)).norm() < 1e-15);
+        assert!((placement.rotation * Vector3::x() - Vector3::y()).norm() < 1e-15);
+        assert!(robot.set_end_effector("a_link") && !robot.set_end_effector("d_link"));
+        assert_eq!(model(robot).end_effector().unwrap().1.translation.x, 1.0);
+    }
+
+    #[test]
     fn joints_come_depth_first() {
         let robot = description(vec![
             joint("left", None),
@@ -210,7 +324,7 @@ mod tests {
             joint("left2", Some(0)),
             joint("right2", Some(1)),
         ]);
-        let model = robot.into_model().unwrap();
+        let model = model(robot);
         let names: Vec<&str> = model.joints().iter().map(|j| j.name.as_str()).collect();
         assert_eq!(names, ["left", "left2", "right", "right2"]);
         assert_eq!(model.joints()[3].parent, Some(2));

@@ -1,6 +1,6 @@
 //! The robot file in TOML; docs/robot-file.md describes it.
 
-use super::description::Description;
+use super::description::{Description, Entry};
 use crate::config::ConfigError;
 use crate::config::document::{Node, quoted};
 use crate::config::inertia;
@@ -17,17 +17,14 @@ pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigE
         Item::root(&document).section(&["schema", "name", "base", "joints", "end_effector"])?;
     crate::config::schema(&root)?;
     let base = root.require("base", "a table with mass, com and inertia")?;
-    let mut robot = Description {
-        name: root.require("name", "a string")?.text("a string")?.into(),
-        base: body(&base.section(&BODY)?, "base")?,
-        joints: Vec::new(),
-        end_effector: None,
-    };
+    let name = root.require("name", "a string")?.text("a string")?;
+    let mut robot = Description::new(name, body(&base.section(&BODY)?, "base")?);
     let joints = root.require("joints", "one [[joints]] table a joint")?;
     let elements = joints.as_elements().filter(|elements| !elements.is_empty());
     for item in elements.ok_or_else(|| joints.unexpected("one [[joints]] table a joint"))? {
         let joint = joint(&item, &robot)?;
-        robot.joints.push(joint);
+        let place = item.node.place.clone();
+        robot.joints.push(Entry::new(joint, place));
     }
     if let Some(item) = root.get("end_effector") {
         let section = item.section(&["parent", "origin"])?;
@@ -83,7 +80,7 @@ fn unused(item: &Item<'_>, name: &str, robot: &Description) -> Result<String, Co
     if name.is_empty() {
         return Err(item.unexpected("a name that is not empty"));
     }
-    if robot.carrier(name).is_some() {
+    if robot.find(name).is_some() {
         return Err(item.error(format!("{name:?} is given twice"), "a name of its own"));
     }
     Ok(name.into())
@@ -91,7 +88,8 @@ fn unused(item: &Item<'_>, name: &str, robot: &Description) -> Result<String, Co
 
 fn carrier(item: &Item<'_>, robot: &Description) -> Result<Option<usize>, ConfigError> {
     let name = item.text("the name of a body or joint")?;
-    robot.carrier(name).ok_or_else(|| {
+    let found = robot.find(name).map(|(carrier, _)| carrier);
+    found.ok_or_else(|| {
         item.error(
             quoted(name),
             format!("{}, listed before this", robot.expected_names()),

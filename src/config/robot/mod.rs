@@ -2,13 +2,16 @@
 
 mod description;
 mod file;
+mod notes;
+mod urdf;
 
 use super::document::quoted;
 use super::files::Files;
 use super::item::{Item, hint};
 use super::{ConfigError, Place};
-use crate::dynamics::Model;
-use description::Description;
+use crate::dynamics::{Inertia, Model, ModelError};
+use crate::planner::Problem;
+use description::{Description, Entry};
 use std::path::Path;
 
 /// The file a robot was read from.
@@ -20,17 +23,92 @@ pub struct RobotFile {
     pub text: String,
 }
 
+/// A robot that has been read and can still be loaded with a spacecraft.
+pub(super) struct Robot {
+    /// The key that names it.
+    place: Place,
+    key: String,
+    description: Description,
+    /// Its file.
+    pub file: RobotFile,
+}
+
+impl Robot {
+    /// Attaches a spacecraft rigidly to the base, given in the frame of the root link.
+    pub(super) fn attach(&mut self, spacecraft: &Inertia) {
+        self.description.load_base(spacecraft);
+    }
+
+    /// The model.
+    pub(super) fn model(&self) -> Result<Model, ConfigError> {
+        let entries = &self.description.joints;
+        refuse(entries)?;
+        self.description.model().map_err(|source| match &source {
+            ModelError::Base { .. } => self.error(
+                source.to_string(),
+                "a heavier root link, or a spacecraft under it: [base] with mass and inertia",
+            ),
+            ModelError::Inert { joint, .. } => {
+                let entry = entries.iter().find(|entry| entry.joint.name == *joint);
+                ConfigError::Format {
+                    place: entry.map_or(&self.place, |entry| &entry.place).clone(),
+                    message: format!(
+                        "{source}; expected bodies with mass, a fixed joint, or this one in robot.lock"
+                    ),
+                }
+            }
+            _ => ConfigError::Model {
+                place: self.place.clone(),
+                key: self.key.clone(),
+                source,
+            },
+        })
+    }
+
+    /// What a user should know of how the robot was read.
+    pub(super) fn notes(&self, problem: &Problem) -> Vec<String> {
+        notes::of(&self.description.joints, &self.file.path, problem)
+    }
+
+    fn error(&self, found: String, expected: &str) -> ConfigError {
+        ConfigError::Value {
+            place: self.place.clone(),
+            key: self.key.clone(),
+            found,
+            expected: expected.into(),
+        }
+    }
+}
+
+/// Refuses joints that cannot move by themselves: the first with its reason, all by name.
+fn refuse(entries: &[Entry]) -> Result<(), ConfigError> {
+    let mut refused = entries.iter().filter(|entry| entry.refusal.is_some());
+    let Some(mut error) = refused.next().and_then(|entry| entry.refusal.clone()) else {
+        return Ok(());
+    };
+    let others: Vec<String> = refused.map(|e| format!("'{}'", e.joint.name)).collect();
+    if let (ConfigError::Value { expected, .. }, false) = (&mut error, others.is_empty()) {
+        expected.push_str(&format!("; likewise {}", others.join(", ")));
+    }
+    Err(error)
+}
+
 /// Reads what the key `robot` names, a file relative to `folder`.
-pub(super) fn read(
-    item: &Item<'_>,
-    folder: &Path,
-    files: &Files,
-) -> Result<(Model, RobotFile), ConfigError> {
+pub(super) fn read(item: &Item<'_>, folder: &Path, files: &Files) -> Result<Robot, ConfigError> {
     const EXPECTED: &str =
         "the path of a robot file, or a table with the keys file, lock and end_effector";
+    let robot = |item: &Item<'_>, (mut description, file): (Description, RobotFile)| {
+        description.sort();
+        Robot {
+            place: item.node.place.clone(),
+            key: item.key.clone(),
+            description,
+            file,
+        }
+    };
     if item.as_entries().is_none() {
-        let (description, file) = load(item, item.text(EXPECTED)?, folder, files)?;
-        return Ok((model(item, description)?, file));
+        let loaded = load(item, item.text(EXPECTED)?, folder, files)?;
+        return Ok(robot(item, loaded));
     }
     let section = item.section(&["file", "lock", "end_effector"])?;
     let path = section.require("file", "the path of a robot file")?;
@@ -41,7 +119,8 @@ pub(super) fn read(
             return Err(item.error(quoted(name), description.expected_names()));
         }
     }
-    if let Some(locked) = section.get("lock") {
+    let locked = section.get("lock");
+    if let Some(locked) = locked {
         for item in locked.entries("a table of joint positions by name")? {
             let position = item.number("the finite position the joint is locked at, rad or m")?;
             if !description.lock(item.name, position) {
@@ -53,19 +132,8 @@ pub(super) fn read(
                 });
             }
         }
-        return Ok((model(locked, description)?, file));
     }
-    Ok((model(item, description)?, file))
-}
-
-fn model(item: &Item<'_>, description: Description) -> Result<Model, ConfigError> {
-    description
-        .into_model()
-        .map_err(|source| ConfigError::Model {
-            place: item.node.place.clone(),
-            key: item.key.clone(),
-            source,
-        })
+    Ok(robot(locked.unwrap_or(item), (description, file)))
 }
 
 fn load(
@@ -76,17 +144,18 @@ fn load(
 ) -> Result<(Description, RobotFile), ConfigError> {
     let full = folder.join(path);
     let path = full.display().to_string();
-    match full.extension().and_then(|extension| extension.to_str()) {
-        Some("toml") => {}
-        Some("urdf" | "xacro" | "xml") => {
-            let found = "URDF robots are not read yet";
-            return Err(item.error(
-                found,
-                "a robot file in TOML, as docs/robot-file.md describes",
-            ));
+    let extension = full
+        .extension()
+        .map(|extension| extension.to_string_lossy());
+    let is_urdf = match extension.map(|e| e.to_ascii_lowercase()).as_deref() {
+        Some("toml") => false,
+        Some("urdf" | "xml") => true,
+        Some("xacro") => {
+            let expected = "URDF: run xacro on the file first, xacro arm.urdf.xacro > arm.urdf";
+            return Err(item.error(quoted(&path), expected));
         }
-        _ => return Err(item.error(quoted(&path), "a file that ends in .toml")),
-    }
+        _ => return Err(item.error(quoted(&path), "a file that ends in .toml or .urdf")),
+    };
     let text = files
         .read(&full)
         .map_err(|reason| ConfigError::Unreadable {
@@ -97,6 +166,12 @@ fn load(
             reason,
             expected: "a robot file, by a path relative to the problem file",
         })?;
-    let description = file::read(&path.as_str().into(), &text)?;
+    let source = path.as_str().into();
+    let description = if is_urdf {
+        let stem = full.file_stem().unwrap_or_default().to_string_lossy();
+        urdf::read(&source, &text, &stem)?
+    } else {
+        file::read(&source, &text)?
+    };
     Ok((description, RobotFile { path, text }))
 }

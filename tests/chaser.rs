@@ -1,0 +1,92 @@
+//! The seven-joint chaser in `config/`, whose answer an independent model knows.
+
+mod program;
+
+use ffsm_ipopt::config::{Overrides, ProblemFile};
+use ffsm_ipopt::planner::{Plan, Planner, Status};
+use program::Folder;
+use std::fs;
+use std::path::Path;
+
+fn shipped(name: &str) -> (ProblemFile, Plan) {
+    let file = ProblemFile::shipped(name).unwrap();
+    let plan = Planner::new().plan(&file.problem).unwrap();
+    assert_eq!(plan.status, Status::Solved);
+    (file, plan)
+}
+
+/// Attitudes of the plan in degrees: the largest of each angle, and the last.
+fn attitudes(plan: &Plan) -> ([f64; 3], [f64; 3]) {
+    let degrees = |row: &Vec<f64>| [0, 1, 2].map(|i| row[i].to_degrees());
+    let rows = &plan.trajectory.base_attitude;
+    let largest = rows.iter().map(degrees).fold([0.0f64; 3], |most, row| {
+        [0, 1, 2].map(|i| most[i].max(row[i].abs()))
+    });
+    (largest, degrees(rows.last().unwrap()))
+}
+
+fn assert_within(found: [f64; 3], expected: [f64; 3], tolerance: f64) {
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found - expected).abs() < tolerance,
+            "{found} instead of {expected}"
+        );
+    }
+}
+
+#[test]
+fn straight_line_motion_is_the_published_one() {
+    let folder = Folder::new("");
+    fs::create_dir(folder.path().join("robots")).unwrap();
+    let config = Path::new(env!("CARGO_MANIFEST_DIR")).join("config");
+    for name in ["chaser-7dof.toml", "robots/chaser-7dof.urdf"] {
+        fs::copy(config.join(name), folder.path().join(name)).unwrap();
+    }
+    let run = folder.run(&["check", "chaser-7dof.toml"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run:?}");
+    // Published to 1e-4 degrees and 1e-6 m: (-0.8869, 8.2104, 1.3218)°, (-1.6188, 0.4726, -2.9121) cm.
+    let expected = "straight-line base motion: (-0.88691, 8.21038, 1.32180)°, (-1.618813, 0.472631, -2.912057) cm\n";
+    assert!(run.stdout.ends_with(expected), "{}", run.stdout);
+    assert!(run.stdout.contains("link7 9 kg"), "{}", run.stdout);
+    assert!(!run.stdout.contains("note:"), "{}", run.stdout);
+}
+
+#[test]
+fn urdf_and_toml_describe_the_same_robot() {
+    let urdf = ProblemFile::shipped("chaser-7dof").unwrap().problem.robot;
+    let folder = Folder::new(include_str!("data/chaser.toml"));
+    folder.write("chaser-7dof.toml", include_str!("data/chaser-7dof.toml"));
+    let path = folder.path().join("case.toml");
+    let toml = ProblemFile::load(&path, &Overrides::default())
+        .unwrap()
+        .problem
+        .robot;
+    assert_eq!(urdf.base().inertia, toml.base().inertia);
+    assert_eq!(urdf.joint_count(), toml.joint_count());
+    for (a, b) in urdf.joints().iter().zip(toml.joints()) {
+        assert_eq!((&a.name, a.kind, a.parent), (&b.name, b.kind, b.parent));
+        assert_eq!((&a.placement, a.axis), (&b.placement, b.axis));
+        assert_eq!(a.body, b.body);
+    }
+    let (carrier, placement) = urdf.end_effector().unwrap();
+    assert_eq!((*carrier, placement.translation.z), (Some(6), 0.294));
+}
+
+#[test]
+fn plan_of_the_published_task() {
+    let (_, plan) = shipped("chaser-7dof");
+    let relative = plan.objective / 0.0526398956 - 1.0;
+    assert!(relative.abs() < 1e-6, "J = {:.10}", plan.objective);
+    let (largest, last) = attitudes(&plan);
+    assert_within(largest, [1.1349, 8.0051, 1.2279], 1e-3);
+    assert_within(last, [-0.4976, 8.0051, 1.2279], 1e-3);
+}
+
+#[test]
+fn plan_where_the_base_matters_more() {
+    let (_, plan) = shipped("chaser-7dof-heavy");
+    let relative = plan.objective / 0.651074798 - 1.0;
+    assert!(relative.abs() < 1e-6, "J = {:.10}", plan.objective);
+    let (_, last) = attitudes(&plan);
+    assert_within(last, [-0.0086, 1.3543, 0.3465], 1e-3);
+}
