@@ -14,7 +14,7 @@ problems=(
   config/table1-relaxed.toml
   config/planar-3link.toml
   config/capture.toml
-  tests/data/chaser.toml
+  config/chaser-7dof.toml
   config/dual-arm.toml
   tests/data/odd-tree.toml
 )

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 PROBLEMS = [
     "config/table1-smooth.toml",
     "config/planar-3link.toml",
-    "tests/data/chaser.toml",
+    "config/chaser-7dof.toml",
     "config/dual-arm.toml",
     "tests/data/odd-tree.toml",
 ]
