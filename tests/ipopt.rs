@@ -1,11 +1,11 @@
 //! The Ipopt wrapper against programmes with known answers, and against misuse.
 
+mod allocations;
+
 use ffsm_ipopt::nlp::ipopt::{IpoptError, interrupt, linear_solvers, solve, version};
 use ffsm_ipopt::nlp::{
     Control, Iterate, Nlp, OptionValue, Progress, Settings, Size, Solution, Status, Undefined,
 };
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::Command;
@@ -977,30 +977,6 @@ fn the_parts_of_the_time_fit_into_the_whole() {
     assert_eq!(untimed.iterate, timed.iterate, "timing changes nothing");
 }
 
-thread_local! {
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-/// Counts a thread's allocations. Ipopt's own go through C and are not seen here.
-struct Counting;
-
-// SAFETY: hands everything on to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: the caller's promise.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's promise.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
-
 #[test]
 fn callbacks_do_not_allocate() {
     let mut nlp = Chain {
@@ -1010,7 +986,7 @@ fn callbacks_do_not_allocate() {
     let start = Iterate::primal(vec![0.9; nlp.points]);
     let (mut first, mut last) = (None, 0);
     let solution = solve(&mut nlp, &Settings::default(), &start, &mut |_| {
-        last = ALLOCATIONS.get();
+        last = allocations::so_far();
         first.get_or_insert(last);
         Control::Continue
     })

@@ -1,5 +1,6 @@
 //! The independent re-integration against motions that are known otherwise.
 
+mod allocations;
 mod problems;
 mod trees;
 
@@ -13,30 +14,7 @@ use ffsm_ipopt::transcription::Discretization;
 use ffsm_ipopt::verify::integrate::{DormandPrince, Motion, Stuck};
 use ffsm_ipopt::verify::{Verification, VerifyError, verify};
 use problems::two_link;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::f64::consts::PI;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: every call is handed on to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
 
 /// Not such that a unit of τ lasts one second.
 const DURATION: f64 = 17.0;
@@ -232,9 +210,9 @@ fn a_false_control_moves_the_joints_but_not_the_replay() {
 fn steps_do_not_allocate() {
     let (problem, plan) = two_link_plan(Mesh::uniform(10, 8).unwrap());
     let count = |plan: &Discretization| {
-        let before = ALLOCATIONS.get();
+        let before = allocations::so_far();
         let found = verify(&problem, plan).unwrap();
-        (ALLOCATIONS.get() - before, found.steps)
+        (allocations::so_far() - before, found.steps)
     };
     let calm = count(&plan);
     let mut rough = plan;
