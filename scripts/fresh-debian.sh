@@ -38,6 +38,7 @@ sysroot=$(rustc --print sysroot)
 
 top=$PWD/target/fresh-debian
 base=$top/base
+home=/home/newcomer # inside the new Debian
 rm -rf --one-file-system "$top"
 mkdir -p "$base"
 trap '[ $? = 0 ] || echo "failed; the Debian root is left in $top" >&2' EXIT
@@ -58,16 +59,16 @@ make_base() {
   # How this machine reaches the network: names, apt's proxy, certificate authorities of its own, cargo's settings.
   cp -L /etc/resolv.conf /etc/hosts "$base/etc/"
   apt-config dump | grep -E '^Acquire::(https?|Check|Retries|Proxy)' >"$base/etc/apt/apt.conf.d/90host" || true
-  mkdir -p "$base/usr/local/share/ca-certificates" "$base/root/.cargo"
+  mkdir -p "$base/usr/local/share/ca-certificates" "$base$home/.cargo"
   for file in /usr/local/share/ca-certificates/*.crt "${CARGO_HTTP_CAINFO:-}" "${SSL_CERT_FILE:-}"; do
     [ ! -f "$file" ] || [ "$file" = /etc/ssl/certs/ca-certificates.crt ] ||
       cp -L "$file" "$base/usr/local/share/ca-certificates/$(basename "${file%.*}").crt"
   done
   for file in "${CARGO_HOME:-$HOME/.cargo}"/config{,.toml}; do
-    [ ! -f "$file" ] || cp -L "$file" "$base/root/.cargo/"
+    [ ! -f "$file" ] || cp -L "$file" "$base$home/.cargo/"
   done
 
-  mkdir -p "$base/opt/rust" "$base/root/ffsm-ipopt"
+  mkdir -p "$base/opt/rust" "$base$home/ffsm-ipopt"
   tar -C "$sysroot" --exclude=./share -cf - . | tar -C "$base/opt/rust" -xf -
   if [ "$from" = worktree ]; then
     git ls-files -z --cached --others --exclude-standard |
@@ -75,7 +76,7 @@ make_base() {
       tar --null -T - -cf -
   else
     git archive HEAD
-  fi | tar -C "$base/root/ffsm-ipopt" -xf -
+  fi | tar -C "$base$home/ffsm-ipopt" -xf -
 }
 
 # Proxy and cargo settings that go into the root with the commands; certificate files and secrets do not.
@@ -92,7 +93,7 @@ wrapper=()
 enter() {
   local root=$1
   shift
-  env -i HOME=/root LANG=C.UTF-8 TERM="${TERM:-dumb}" "${settings[@]}" \
+  env -i HOME="$home" LANG=C.UTF-8 TERM="${TERM:-dumb}" "${settings[@]}" \
     PATH=/opt/rust/bin:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
     "${wrapper[@]}" chroot "$root" "$@" </dev/null
 }
@@ -115,11 +116,11 @@ for name in "${scripts[@]}"; do
   mount --rbind /dev "$root/dev"
 
   wrapper=()
-  timed "scripts/$name.sh, from nothing" enter "$root" /root/ffsm-ipopt/scripts/"$name".sh
+  timed "scripts/$name.sh, from nothing" enter "$root" "$home/ffsm-ipopt/scripts/$name.sh"
   before=$(enter "$root" dpkg -l)
   # Without any network an installation or a download could only fail.
   wrapper=(unshare --net)
-  timed "scripts/$name.sh again, network cut off" enter "$root" /root/ffsm-ipopt/scripts/"$name".sh
+  timed "scripts/$name.sh again, network cut off" enter "$root" "$home/ffsm-ipopt/scripts/$name.sh"
   wrapper=()
   after=$(enter "$root" dpkg -l)
 
