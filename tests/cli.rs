@@ -9,7 +9,7 @@ use serde_json::Value;
 fn help_names_every_command() {
     let run = Folder::new(PROBLEM).run(&["--help"]);
     assert_eq!(run.code, 0);
-    for command in ["plan", "check", "table2", "doctor"] {
+    for command in ["plan", "check", "table2", "verify", "doctor"] {
         assert!(
             run.stdout
                 .lines()
@@ -290,6 +290,56 @@ fn a_saved_solution_is_a_start() {
     assert_eq!(warm["points"], cold["points"]);
     let difference = warm["objective"].as_f64().unwrap() - cold["objective"].as_f64().unwrap();
     assert!(difference.abs() < 1e-9, "{difference}");
+}
+
+#[test]
+fn a_saved_plan_is_verified_without_its_files() {
+    let folder = Folder::new(PROBLEM);
+    let plan = [
+        "plan",
+        "case.toml",
+        "--set",
+        "task.duration=15",
+        "--tolerance",
+        "1e-4",
+        "--out",
+        "a",
+        "--quiet",
+    ];
+    assert_eq!(folder.run(&plan).code, 0);
+    // Everything needed is kept in the solution.
+    std::fs::remove_file(folder.path().join("case.toml")).unwrap();
+    std::fs::remove_file(folder.path().join("robot.toml")).unwrap();
+    let run = folder.run(&["verify", "a/solution.json", "--out", "b"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert!(
+        run.stdout.starts_with("case: planned (solved), "),
+        "{}",
+        run.stdout
+    );
+    let saved: Value = serde_json::from_str(&folder.read("a/solution.json")).unwrap();
+    let found: Value = serde_json::from_str(&folder.read("b/verification.json")).unwrap();
+    assert_eq!(found["verification"], saved["verification"]);
+
+    let damage = |from: &str, to: &str| {
+        let text = folder.read("a/solution.json");
+        assert!(text.contains(from), "{from}");
+        folder.write("damaged.json", &text.replacen(from, to, 1));
+        let run = folder.run(&["verify", "damaged.json"]);
+        assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{to}");
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+        run.stderr
+    };
+    let found = damage("mass = 1.70", "mass = 1.71");
+    assert!(
+        found.starts_with("damaged.json: provenance.robot: "),
+        "{found}"
+    );
+    let found = damage("--set task.duration=15", "--set task.durration=15");
+    assert!(
+        found.contains("provenance: ") && found.contains("did you mean 'duration'?"),
+        "{found}"
+    );
 }
 
 #[test]

@@ -3,7 +3,8 @@
 use crate::config::{ConfigError, ProblemFile};
 use crate::nlp::ipopt::IpoptError;
 use crate::planner::PlanError;
-use crate::report::{OutputError, WarmStartError};
+use crate::report::{OutputError, SolutionError};
+use crate::verify::VerifyError;
 use std::path::Path;
 
 /// What keeps a command from being carried out.
@@ -12,7 +13,9 @@ pub(super) enum Failure {
     #[error(transparent)]
     Config(#[from] ConfigError),
     #[error(transparent)]
-    WarmStart(#[from] WarmStartError),
+    Solution(#[from] SolutionError),
+    #[error("{path}: {source}")]
+    Verify { path: String, source: VerifyError },
     #[error("{path}: {source}")]
     Start { path: String, source: PlanError },
     #[error(transparent)]
@@ -31,7 +34,7 @@ impl Failure {
     /// 2 where the input is to blame, else 1.
     pub(super) fn code(&self) -> u8 {
         match self {
-            Self::Config(_) | Self::WarmStart(_) | Self::Start { .. } => 2,
+            Self::Config(_) | Self::Solution(_) | Self::Start { .. } | Self::Verify { .. } => 2,
             Self::Output(OutputError::Folder { .. }) => 2,
             Self::Output(OutputError::File { .. }) => 1,
             Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,

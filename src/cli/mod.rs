@@ -10,6 +10,7 @@ mod show;
 mod table2;
 mod table2_report;
 mod terminal;
+mod verify;
 
 use crate::report::Build;
 use clap::{Parser, Subcommand};
@@ -44,6 +45,7 @@ enum Command {
     Plan(plan::Arguments),
     Check(check::Arguments),
     Table2(table2::Arguments),
+    Verify(verify::Arguments),
     Doctor(doctor::Arguments),
 }
 
@@ -56,6 +58,7 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Table2(arguments) => table2::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match result {

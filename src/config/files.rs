@@ -1,14 +1,16 @@
-//! Where files are read from: the disk, or those shipped inside the program.
+//! Where files are read from: the disk, those shipped inside the program, texts kept elsewhere.
 
 use std::path::Path;
 
 /// Where the files of a problem are read from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Files {
+pub(super) enum Files<'a> {
     /// The file system.
     Disk,
     /// The files shipped with the program, by their paths in the source tree.
     Shipped,
+    /// Texts kept elsewhere, by their paths.
+    Kept(&'a [(&'a str, &'a str)]),
 }
 
 /// The shipped files by their paths.
@@ -43,7 +45,7 @@ const SHIPPED: [(&str, &str); 7] = [
     ),
 ];
 
-impl Files {
+impl Files<'_> {
     /// The text of a file, or why there is none.
     pub(super) fn read(self, path: &Path) -> Result<String, String> {
         match self {
@@ -56,6 +58,11 @@ impl Files {
                 .find(|(name, _)| Path::new(name) == path)
                 .map(|(_, text)| text.to_string())
                 .ok_or_else(|| "it is not shipped with the program".into()),
+            Self::Kept(texts) => texts
+                .iter()
+                .find(|(name, _)| Path::new(name) == path)
+                .map(|(_, text)| text.to_string())
+                .ok_or_else(|| "its text was not kept".into()),
         }
     }
 }

@@ -63,6 +63,33 @@ impl Overrides {
         });
     }
 
+    /// The options again that [`Overrides::flags`] gave.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for an option that is none of them.
+    pub fn replay(flags: &[String]) -> Result<Self, ConfigError> {
+        let mut overrides = Self::default();
+        for flag in flags {
+            let unknown = || ConfigError::Format {
+                place: place(flag),
+                message: "not an option that changes a problem; expected --set, --method or \
+                          --tolerance with its value"
+                    .into(),
+            };
+            let (option, value) = flag.split_once(' ').ok_or_else(unknown)?;
+            match option {
+                "--set" => overrides.set(value)?,
+                "--method" => overrides.text(flag, "mesh.method", value),
+                "--tolerance" => {
+                    let value = value.parse().map_err(|_| unknown())?;
+                    overrides.number(flag, "mesh.tolerance", value);
+                }
+                _ => return Err(unknown()),
+            }
+        }
+        Ok(overrides)
+    }
+
     /// The options as they were written.
     pub fn flags(&self) -> Vec<String> {
         self.entries
@@ -192,6 +219,20 @@ mod tests {
             Value::Float(f64::INFINITY)
         );
         assert_eq!(value("a.b=1\nc=2", "a", "b"), Value::Text("1\nc=2".into()));
+    }
+
+    #[test]
+    fn options_survive_being_written_down() {
+        let mut overrides = Overrides::default();
+        overrides.set("limits.control = [1, 2]").unwrap();
+        overrides.text("--method rpm", "mesh.method", "rpm");
+        overrides.number("--tolerance 1e-7", "mesh.tolerance", 1e-7);
+        assert_eq!(Overrides::replay(&overrides.flags()).unwrap(), overrides);
+        let error = Overrides::replay(&["--quiet".into()]).unwrap_err();
+        assert!(
+            error.to_string().starts_with("--quiet: not an option"),
+            "{error}"
+        );
     }
 
     #[test]

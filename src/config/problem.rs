@@ -46,7 +46,25 @@ impl ProblemFile {
         Self::read(Path::new(&path), Files::Shipped, &Overrides::default())
     }
 
-    fn read(path: &Path, files: Files, overrides: &Overrides) -> Result<Self, ConfigError> {
+    /// The problem again of which a solution keeps the texts: problem file and robot file, each
+    /// by its path, and the options of the command line as written.
+    ///
+    /// # Errors
+    /// [`ConfigError`] where the texts no longer make a problem.
+    pub fn restore(
+        problem: (&str, &str),
+        robot: (&str, &str),
+        options: &[String],
+    ) -> Result<Self, ConfigError> {
+        let texts = [problem, robot];
+        Self::read(
+            Path::new(problem.0),
+            Files::Kept(&texts),
+            &Overrides::replay(options)?,
+        )
+    }
+
+    fn read(path: &Path, files: Files<'_>, overrides: &Overrides) -> Result<Self, ConfigError> {
         let source = path.display().to_string();
         let text = files.read(path).map_err(|reason| ConfigError::Unreadable {
             place: Place {
@@ -119,7 +137,7 @@ impl ProblemFile {
     }
 }
 
-fn read(document: &Node, path: &Path, files: Files) -> Result<(Problem, Robot), ConfigError> {
+fn read(document: &Node, path: &Path, files: Files<'_>) -> Result<(Problem, Robot), ConfigError> {
     let root = Item::root(document).section(&[
         "schema", "name", "robot", "base", "task", "limits", "cost", "mesh", "solver",
     ])?;

@@ -88,7 +88,7 @@ fn metrics(found: &planner::Metrics) -> Metrics {
     }
 }
 
-fn verification(found: &verify::Verification) -> Verification {
+pub(super) fn verification(found: &verify::Verification) -> Verification {
     Verification {
         max_base_attitude_drift: found.max_base_attitude_drift,
         max_base_position_drift: found.max_base_position_drift,

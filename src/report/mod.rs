@@ -13,8 +13,10 @@ mod lines;
 mod number;
 mod output;
 mod provenance;
+mod read;
 mod solution;
 mod summary;
+mod verification;
 mod warm_start;
 
 pub use build::Build;
@@ -25,9 +27,11 @@ pub use json::to_json;
 pub use lines::Lines;
 pub use output::{OutputError, OutputFolder};
 pub use provenance::Provenance;
+pub use read::{Saved, SolutionError, read_solution};
 pub use solution::{
     Diagnosis, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing, Trajectory,
     Verification,
 };
 pub use summary::{summary, verdict};
-pub use warm_start::{WarmStartError, read_warm_start};
+pub use verification::{verification_json, verification_summary};
+pub use warm_start::read_warm_start;

@@ -46,12 +46,11 @@ pub struct TextFile {
 impl Provenance {
     /// Of a plan for the problem in `file`.
     pub fn of(file: &ProblemFile) -> Self {
-        let digest = Sha256::digest(file.robot.text.as_bytes());
         Self {
             version: Build::VERSION.into(),
             ipopt: ipopt::version().into(),
             linear_solver: file.problem.solver.linear_solver.clone(),
-            robot_sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            robot_sha256: fingerprint(&file.robot.text),
             problem: ProblemSource {
                 path: file.path.clone(),
                 text: file.text.clone(),
@@ -63,4 +62,10 @@ impl Provenance {
             },
         }
     }
+}
+
+/// SHA-256 of a text, hexadecimal.
+pub(super) fn fingerprint(text: &str) -> String {
+    let digest = Sha256::digest(text.as_bytes());
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -42,10 +42,7 @@ pub fn summary(
             seconds(time.setup)
         ),
     );
-    for (i, file) in files.iter().enumerate() {
-        let label = if i == 0 { "written" } else { "" };
-        lines.add(label, file.display().to_string());
-    }
+    lines.files(files);
     let heading = match (plan.status, &plan.diagnosis) {
         (Status::Infeasible, Some(diagnosis)) => format!(
             "{}: infeasible ({})\n\n{}\n\nThe motion below has those limits relaxed.",

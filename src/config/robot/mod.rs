@@ -94,7 +94,11 @@ fn refuse(entries: &[Entry]) -> Result<(), ConfigError> {
 }
 
 /// Reads what the key `robot` names, a file relative to `folder`.
-pub(super) fn read(item: &Item<'_>, folder: &Path, files: &Files) -> Result<Robot, ConfigError> {
+pub(super) fn read(
+    item: &Item<'_>,
+    folder: &Path,
+    files: &Files<'_>,
+) -> Result<Robot, ConfigError> {
     const EXPECTED: &str =
         "the path of a robot file, or a table with the keys file, lock and end_effector";
     let robot = |item: &Item<'_>, (mut description, file): (Description, RobotFile)| {
@@ -140,7 +144,7 @@ fn load(
     item: &Item<'_>,
     path: &str,
     folder: &Path,
-    files: &Files,
+    files: &Files<'_>,
 ) -> Result<(Description, RobotFile), ConfigError> {
     let full = folder.join(path);
     let path = full.display().to_string();

@@ -1,0 +1,47 @@
+//! `verify`: a saved plan integrated again.
+
+use super::failure::Failure;
+use super::{Outcome, terminal};
+use crate::dynamics::JointKind;
+use crate::report::{OutputFolder, Saved, verification_json, verification_summary};
+use crate::verify::verify;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Integrate a saved plan again with the full dynamics and report how far it drifts
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Saved solution
+    #[arg(value_name = "SOLUTION.json")]
+    solution: PathBuf,
+    /// Folder to write verification.json to [default: out/<problem name>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Reads, integrates, writes, prints.
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let path = &arguments.solution;
+    let saved = Saved::load(path)?;
+    let problem = &saved.file.problem;
+    let default = || Path::new("out").join(&problem.name);
+    let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
+    let found = verify(problem, &saved.plan).map_err(|source| Failure::Verify {
+        path: path.display().to_string(),
+        source,
+    })?;
+    let json = verification_json(&problem.name, path, &found).map_err(|error| Failure::Format {
+        path: path.display().to_string(),
+        message: error.to_string(),
+    })?;
+    let files = [folder.write("verification.json", &json)?];
+    let joints = problem.robot.joints();
+    terminal::print(&verification_summary(
+        &problem.name,
+        &saved.solution.status,
+        joints.iter().all(|joint| joint.kind == JointKind::Revolute),
+        &found,
+        &files,
+    ))?;
+    Ok(Outcome::Done)
+}
