@@ -6,8 +6,8 @@ mod trees;
 
 use fastrand::Rng;
 use ffsm_ipopt::autodiff::Dual;
-use ffsm_ipopt::dynamics::attitude::{Attitude, base_position};
-use ffsm_ipopt::dynamics::space::{Planar, Space, Spatial, Vector};
+use ffsm_ipopt::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
+use ffsm_ipopt::dynamics::space::{Space, Spatial, Vector};
 use ffsm_ipopt::dynamics::{Body, Data, Inertia, Model, Tree};
 use ffsm_ipopt::nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use ffsm_ipopt::verify::bodies::{BaseMotion, Bodies, orientation};
@@ -345,8 +345,8 @@ fn straight_line(model: &Model, from: [f64; 2], to: [f64; 2]) -> (f64, [f64; 2])
         };
         eta += weight * at(k as f64 / steps as f64).base_rate.x / (3 * steps) as f64;
     }
-    let start = base_position::<Planar, f64>(&[0.0], &at(0.0).system_center);
-    let end = base_position::<Planar, f64>(&[eta], &at(1.0).system_center);
+    let start = PlanarAngle.base_position(&[0.0], &at(0.0).system_center);
+    let end = PlanarAngle.base_position(&[eta], &at(1.0).system_center);
     (eta, (end - start).into())
 }
 
@@ -366,11 +366,12 @@ fn the_straight_path_of_table_1_moves_the_base_as_other_tools_say() {
 fn attitude_rates_are_those_of_the_orientation() {
     // R(η + η̇ dt) − R(η) against ω, by dual numbers on the axes of the base.
     let rng = &mut Rng::with_seed(11);
+    let attitude = SpatialAttitude::RollPitchYaw;
     for _ in 0..50 {
         let eta = trees::values(rng, 3, 1.3);
         let omega = trees::vector(rng);
         let mut rates = [0.0; 3];
-        Spatial::rates(&eta, &omega, &mut rates);
+        attitude.rates(&eta, &omega, &mut rates);
         let moving: Vec<Dual<1>> = (0..3)
             .map(|i| Dual {
                 value: eta[i],
@@ -382,7 +383,7 @@ fn attitude_rates_are_those_of_the_orientation() {
             .into_inner();
         for k in 0..3 {
             let axis = Vector3::ith(k, 1.0);
-            let turned = Spatial::to_inertial(
+            let turned = attitude.to_inertial(
                 &moving,
                 &axis.map(|c| Dual {
                     value: c,

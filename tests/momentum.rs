@@ -6,8 +6,8 @@ mod trees;
 
 use fastrand::Rng;
 use ffsm_ipopt::autodiff::Dual;
-use ffsm_ipopt::dynamics::attitude::{Attitude, base_position};
-use ffsm_ipopt::dynamics::space::Vector;
+use ffsm_ipopt::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
+use ffsm_ipopt::dynamics::space::{Space, Vector};
 use ffsm_ipopt::dynamics::{Data, Model, Tree};
 use ffsm_ipopt::nalgebra::{Matrix3, Vector3};
 use ffsm_ipopt::verify::bodies::{BaseMotion, Bodies, orientation};
@@ -28,9 +28,9 @@ fn moving(values: &[f64], rates: &[f64]) -> Vec<Rate> {
 }
 
 /// Position and velocity of the base and its angular velocity in base axes, as `dynamics` says.
-fn base_motion<Sp: Attitude>(
+fn base_motion<Sp: Space>(
     tree: &Tree<Sp>,
-    eta: &[f64],
+    (attitude, eta): (Sp::Attitude, &[f64]),
     q: &[f64],
     dq: &[f64],
 ) -> (Vec<Rate>, Vec<f64>) {
@@ -39,13 +39,13 @@ fn base_motion<Sp: Attitude>(
     tree.momentum(&mut data);
     tree.base_rate(dq, &mut data);
     let omega = data.base_rate.components().to_vec();
-    let mut eta_rate = vec![0.0; Sp::ANGLES];
-    Sp::rates(eta, &data.base_rate, &mut eta_rate);
+    let mut eta_rate = vec![0.0; attitude.count()];
+    attitude.rates(eta, &data.base_rate, &mut eta_rate);
 
     let mut data = Data::<Sp, Rate>::new(tree);
     tree.kinematics(&moving(q, dq), &mut data);
     tree.momentum(&mut data);
-    let zeta = base_position::<Sp, Rate>(&moving(eta, &eta_rate), &data.system_center);
+    let zeta = attitude.base_position(&moving(eta, &eta_rate), &data.system_center);
     (zeta.components().to_vec(), omega)
 }
 
@@ -124,7 +124,7 @@ fn check_in_space(model: &Model, rng: &mut Rng) {
     for _ in 0..50 {
         let (q, dq) = (trees::values(rng, n, 3.0), trees::values(rng, n, 2.0));
         let eta = trees::values(rng, 3, 1.3);
-        let motion = base_motion(&tree, &eta, &q, &dq);
+        let motion = base_motion(&tree, (SpatialAttitude::RollPitchYaw, &eta), &q, &dq);
         check(model, &eta, Matrix3::identity(), motion, &q, &dq);
     }
 }
@@ -136,7 +136,7 @@ fn check_in_plane(model: &Model, rng: &mut Rng) {
     for _ in 0..50 {
         let (q, dq) = (trees::values(rng, n, 3.0), trees::values(rng, n, 2.0));
         let eta = trees::values(rng, 1, 3.0);
-        let motion = base_motion(&tree, &eta, &q, &dq);
+        let motion = base_motion(&tree, (PlanarAngle, &eta), &q, &dq);
         check(model, &eta, basis, motion, &q, &dq);
     }
 }

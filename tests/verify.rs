@@ -7,6 +7,7 @@ mod trees;
 use fastrand::Rng;
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::dynamics::attitude::Attitude;
+use ffsm_ipopt::dynamics::space::Space;
 use ffsm_ipopt::dynamics::{Data, Model, Tree};
 use ffsm_ipopt::nalgebra::Vector3;
 use ffsm_ipopt::planner::Problem;
@@ -45,21 +46,22 @@ impl Quintic {
 }
 
 /// The plan that goes with the path, by the dynamics that are to be checked.
-fn plan<Sp: Attitude>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretization {
-    let n = tree.joint_count();
+fn plan<Sp: Space>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretization {
+    let (n, attitude) = (tree.joint_count(), Sp::Attitude::BY_ANGLES);
+    let angles = attitude.count();
     let mut data = Data::<Sp, f64>::new(tree);
     let rate = |fraction: f64, eta: &[f64], data: &mut Data<Sp, f64>| {
         let [q, dq, _] = path.at(fraction);
         tree.kinematics(&q, data);
         tree.momentum(data);
         tree.base_rate(&dq, data);
-        let mut rates = vec![0.0; Sp::ANGLES];
-        Sp::rates(eta, &data.base_rate, &mut rates);
+        let mut rates = vec![0.0; angles];
+        attitude.rates(eta, &data.base_rate, &mut rates);
         rates
     };
-    let mut eta = vec![0.0; Sp::ANGLES];
+    let mut eta = vec![0.0; angles];
     let mut reached = 0.0;
-    Discretization::sample(mesh, DURATION, Sp::ANGLES + 2 * n, n, |fraction, x, u| {
+    Discretization::sample(mesh, DURATION, angles + 2 * n, n, |fraction, x, u| {
         // Classical Runge-Kutta steps from node to node, fine enough for rounding to count.
         let steps = 40;
         let h = (fraction - reached) / f64::from(steps);
@@ -73,11 +75,11 @@ fn plan<Sp: Attitude>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretiza
                     .collect();
                 rate(s, &eta, &mut data)
             };
-            let k1 = along(s, &vec![0.0; Sp::ANGLES], 0.0);
+            let k1 = along(s, &vec![0.0; angles], 0.0);
             let k2 = along(s + 0.5 * h, &k1, 0.5 * h);
             let k3 = along(s + 0.5 * h, &k2, 0.5 * h);
             let k4 = along(s + h, &k3, h);
-            for i in 0..Sp::ANGLES {
+            for i in 0..angles {
                 eta[i] += h * DURATION / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
             }
         }
@@ -94,9 +96,9 @@ fn plan<Sp: Attitude>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretiza
         for j in 0..n {
             u[j] = ddq[j] + free[j];
         }
-        x[..Sp::ANGLES].copy_from_slice(&eta);
-        x[Sp::ANGLES..Sp::ANGLES + n].copy_from_slice(&q);
-        x[Sp::ANGLES + n..].copy_from_slice(&dq);
+        x[..angles].copy_from_slice(&eta);
+        x[angles..angles + n].copy_from_slice(&q);
+        x[angles + n..].copy_from_slice(&dq);
     })
 }
 

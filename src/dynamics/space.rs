@@ -1,5 +1,6 @@
 //! The plane and three-dimensional space, so that each algorithm is written once for both.
 
+use super::attitude::{Attitude, PlanarAngle, SpatialAttitude};
 use crate::autodiff::Scalar;
 use nalgebra::{Matrix3, SVector, Vector1, Vector2, Vector3};
 use std::fmt::Debug;
@@ -62,11 +63,13 @@ impl<S: Scalar, const N: usize> Vector<S> for SVector<S, N> {
 
 /// Where bodies move: [`Planar`] or [`Spatial`].
 pub trait Space: Copy + Debug + Send + Sync + 'static {
-    /// Number of attitude angles η: 1 in the plane, 3 (roll, pitch, yaw) in space.
+    /// Number of components of an angular velocity: 1 in the plane, 3 in space.
     const ANGLES: usize;
     /// Number of components of a position: 2 or 3.
     const LENGTHS: usize;
 
+    /// How the base's orientation is described.
+    type Attitude: Attitude<Self>;
     /// Positions, velocities, forces.
     type Linear<S: Scalar>: Vector<S>;
     /// Angular velocities, moments.
@@ -143,6 +146,7 @@ impl Space for Planar {
     const ANGLES: usize = 1;
     const LENGTHS: usize = 2;
 
+    type Attitude = PlanarAngle;
     type Linear<S: Scalar> = Vector2<S>;
     type Angular<S: Scalar> = Vector1<S>;
     /// Cosine and sine.
@@ -258,6 +262,7 @@ impl Space for Spatial {
     const ANGLES: usize = 3;
     const LENGTHS: usize = 3;
 
+    type Attitude = SpatialAttitude;
     type Linear<S: Scalar> = Vector3<S>;
     type Angular<S: Scalar> = Vector3<S>;
     /// Columns: the body's axes in base axes.

@@ -4,6 +4,7 @@ use super::guess::{JointPath, along};
 use super::{Diagnosis, Event, FreeFloating, LimitFinding, PlanError, Problem};
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Statistics};
 use crate::ocp::{Elastic, Interval, LimitGroup, Limited, Ocp};
 use crate::refine::{self, Method, Refinement, Start};
@@ -37,7 +38,7 @@ pub(super) struct Diagnosed {
 ///
 /// Limits on the base are requirements, limits on the joints are hardware: only where relaxing
 /// the former does not do are the latter relaxed as well.
-pub(super) fn diagnose<Sp: Attitude>(
+pub(super) fn diagnose<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
     failed: &Discretization,
@@ -112,7 +113,7 @@ struct Found {
     interrupted: bool,
 }
 
-struct Search<'a, 'm, Sp: Attitude> {
+struct Search<'a, 'm, Sp: Space> {
     problem: &'a Problem,
     system: &'a FreeFloating<Sp>,
     failed: &'a Discretization,
@@ -120,7 +121,7 @@ struct Search<'a, 'm, Sp: Attitude> {
     statistics: Statistics,
 }
 
-impl<Sp: Attitude> Search<'_, '_, Sp> {
+impl<Sp: Space> Search<'_, '_, Sp> {
     /// The least excess of `groups` over all starts.
     fn run(&mut self, groups: Vec<LimitGroup>) -> Result<Option<Found>, PlanError> {
         if groups.is_empty() {
@@ -274,14 +275,14 @@ fn strip(trajectory: &Discretization, states: usize) -> Discretization {
 }
 
 /// Every bound of `groups` that `trajectory` exceeds.
-fn findings<Sp: Attitude>(
+fn findings<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
     groups: &[LimitGroup],
     trajectory: &Discretization,
 ) -> Vec<LimitFinding> {
     let formulation = system.formulation();
-    let n = problem.robot.joint_count();
+    let (n, angles) = (problem.robot.joint_count(), system.attitude().count());
     let planned = super::trajectory::trajectory(system, trajectory);
     let column = |rows: &[Vec<f64>], i: usize| rows.iter().map(|row| row[i]).collect::<Vec<_>>();
     let state_rows: Vec<Vec<f64>> = (0..=trajectory.mesh.points())
@@ -295,9 +296,9 @@ fn findings<Sp: Attitude>(
         for &member in &group.members {
             let (key, component, bound, values) = match member {
                 Limited::State(i) => {
-                    let key = if i < Sp::ANGLES {
+                    let key = if i < angles {
                         "limits.base_attitude"
-                    } else if i < Sp::ANGLES + n {
+                    } else if i < angles + n {
                         "limits.joint_position"
                     } else {
                         "limits.joint_velocity"
@@ -402,11 +403,11 @@ fn summary(limits: &[LimitFinding]) -> String {
 }
 
 /// The joint a bound is about; `None` for the base and for what is about no single joint.
-fn member_joint<Sp: Attitude>(system: &FreeFloating<Sp>, member: Limited) -> Option<usize> {
+fn member_joint<Sp: Space>(system: &FreeFloating<Sp>, member: Limited) -> Option<usize> {
     match member {
-        Limited::State(i) | Limited::Terminal(i) => {
-            i.checked_sub(Sp::ANGLES).map(|k| k % system.joint_count())
-        }
+        Limited::State(i) | Limited::Terminal(i) => i
+            .checked_sub(system.attitude().count())
+            .map(|k| k % system.joint_count()),
         Limited::Control(j) => Some(j),
         Limited::Path(p) => system.path_limit(p).1,
         Limited::Boundary(_) => None,

@@ -5,8 +5,8 @@ use super::goal::GoalRows;
 use super::keep_out::KeepOutRow;
 use super::momentum::Drift;
 use crate::autodiff::Scalar;
-use crate::dynamics::attitude::{Attitude, base_position};
-use crate::dynamics::space::{Planar, Spatial, Vector};
+use crate::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
+use crate::dynamics::space::{Planar, Space, Spatial, Vector};
 use crate::dynamics::{Data, Tree};
 use crate::ocp::{Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Point, Quantity};
 use crate::transcription::Discretization;
@@ -16,8 +16,9 @@ use crate::transcription::Discretization;
 /// The paper's state is [θ, θ̇]; the base attitude joins it because its limits (10) and its cost
 /// (14) need it. Path rows, where limited: the rates η̇, then the torques τ = Hu.
 #[derive(Debug, Clone)]
-pub struct FreeFloating<Sp: Attitude> {
+pub struct FreeFloating<Sp: Space> {
     tree: Tree<Sp>,
+    attitude: Sp::Attitude,
     formulation: Formulation,
     cost: super::Cost,
     start_position: Sp::Linear<f64>,
@@ -32,19 +33,21 @@ pub struct FreeFloating<Sp: Attitude> {
 impl FreeFloating<Planar> {
     /// The planar form of `problem`, or `None` where its motion leaves the plane.
     pub fn planar(problem: &Problem) -> Option<Self> {
-        Some(Self::new(problem, Tree::planar(&problem.robot)?))
+        let tree = Tree::planar(&problem.robot)?;
+        Some(Self::new(problem, tree, PlanarAngle))
     }
 }
 
 impl FreeFloating<Spatial> {
     /// The spatial form of `problem`.
     pub fn spatial(problem: &Problem) -> Self {
-        Self::new(problem, Tree::spatial(&problem.robot))
+        let tree = Tree::spatial(&problem.robot);
+        Self::new(problem, tree, SpatialAttitude::RollPitchYaw)
     }
 }
 
-impl<Sp: Attitude> FreeFloating<Sp> {
-    fn new(problem: &Problem, tree: Tree<Sp>) -> Self {
+impl<Sp: Space> FreeFloating<Sp> {
+    fn new(problem: &Problem, tree: Tree<Sp>, attitude: Sp::Attitude) -> Self {
         let limits = &problem.limits;
         let limited = |bounds: &[Interval]| bounds.iter().any(|b| !b.is_free());
         let rate_rows = limited(&limits.base_rate);
@@ -52,11 +55,10 @@ impl<Sp: Attitude> FreeFloating<Sp> {
         let mut data = Data::<Sp, f64>::new(&tree);
         tree.kinematics(&problem.task.initial_joints, &mut data);
         tree.momentum(&mut data);
-        let level = vec![0.0; Sp::ANGLES];
-        let start_position = base_position::<Sp, f64>(&level, &data.system_center);
+        let start_position = attitude.base_position(attitude.start(), &data.system_center);
         let goal = problem.task.end_effector.as_ref();
         let goal = goal.map(|goal| GoalRows::new(goal, start_position));
-        let mut formulation = formulation::<Sp>(problem, rate_rows, torque_rows);
+        let mut formulation = formulation::<Sp>(problem, attitude, rate_rows, torque_rows);
         let pairs = limits.keep_out.iter();
         let keep_out: Vec<_> = pairs.map(|pair| KeepOutRow::new(pair, &tree)).collect();
         formulation
@@ -77,6 +79,7 @@ impl<Sp: Attitude> FreeFloating<Sp> {
             rate_rows,
             torque_rows,
             torque_cost: problem.cost.torque.iter().any(|w| *w > 0.0),
+            attitude,
             tree,
         }
     }
@@ -86,11 +89,16 @@ impl<Sp: Attitude> FreeFloating<Sp> {
         &self.tree
     }
 
+    /// How the base attitude is described.
+    pub fn attitude(&self) -> Sp::Attitude {
+        self.attitude
+    }
+
     /// The base's angular velocity for the joint rates and the system's momentum, into `data`;
     /// needs [`Tree::momentum`].
     pub fn base_rate<S: Scalar>(&self, eta: &[S], dtheta: &[S], data: &mut Data<Sp, S>) {
         self.tree.base_rate(dtheta, data);
-        self.drift.tumble(eta, data);
+        self.drift.tumble(self.attitude, eta, data);
     }
 
     /// Moves an inertial position with the system's mass centre, `t` seconds after t₀.
@@ -172,7 +180,7 @@ impl<Sp: Attitude> FreeFloating<Sp> {
                 });
             }
         };
-        for (i, state) in states.iter().enumerate().take(Sp::ANGLES) {
+        for (i, state) in states.iter().enumerate().take(self.attitude.count()) {
             let along = state.bounds;
             let at_end = self.formulation.terminal[i];
             let members = [(along, Limited::State(i)), (at_end, Limited::Terminal(i))];
@@ -202,7 +210,8 @@ impl<Sp: Attitude> FreeFloating<Sp> {
             push(row.name.clone(), members, &row.bounds);
         }
         // Positions before rates: where both could give way, the cheaper one is found anyway.
-        for (i, state) in states.iter().enumerate().skip(Sp::ANGLES).take(2 * n) {
+        let joints = states.iter().enumerate().skip(self.attitude.count());
+        for (i, state) in joints.take(2 * n) {
             if !state.bounds.is_free() {
                 push(state.name.clone(), vec![Limited::State(i)], &state.bounds);
             }
@@ -236,7 +245,12 @@ impl<Sp: Attitude> FreeFloating<Sp> {
     }
 }
 
-fn formulation<Sp: Attitude>(problem: &Problem, rate_rows: bool, torque_rows: bool) -> Formulation {
+fn formulation<Sp: Space>(
+    problem: &Problem,
+    attitude: Sp::Attitude,
+    rate_rows: bool,
+    torque_rows: bool,
+) -> Formulation {
     let n = problem.robot.joint_count();
     let (task, limits) = (&problem.task, &problem.limits);
     let joints = |what: &str, bounds: &[Interval]| -> Vec<Quantity> {
@@ -246,7 +260,7 @@ fn formulation<Sp: Attitude>(problem: &Problem, rate_rows: bool, torque_rows: bo
     };
     let angles = |suffix: &str, bounds: &[Interval]| -> Vec<Quantity> {
         let named = |(name, b): (&&str, &Interval)| Quantity::new(format!("{name}{suffix}"), *b);
-        Sp::NAMES.iter().zip(bounds).map(named).collect()
+        attitude.names().iter().zip(bounds).map(named).collect()
     };
     let fixed = |values: &[f64]| {
         values
@@ -274,7 +288,7 @@ fn formulation<Sp: Attitude>(problem: &Problem, rate_rows: bool, torque_rows: bo
         path,
         boundary: Vec::new(),
         initial: [
-            fixed(&vec![0.0; Sp::ANGLES]),
+            fixed(attitude.start()),
             fixed(&task.initial_joints),
             fixed(&task.initial_rates),
         ]
@@ -295,7 +309,7 @@ fn formulation<Sp: Attitude>(problem: &Problem, rate_rows: bool, torque_rows: bo
 
 /// Scratch of [`FreeFloating`].
 #[derive(Debug, Clone)]
-pub struct Scratch<Sp: Attitude, S: Scalar> {
+pub struct Scratch<Sp: Space, S: Scalar> {
     data: Data<Sp, S>,
     /// H⁻¹Cθ̇.
     coriolis: Vec<S>,
@@ -303,7 +317,7 @@ pub struct Scratch<Sp: Attitude, S: Scalar> {
     torque: Vec<S>,
 }
 
-impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
+impl<Sp: Space> Ocp for FreeFloating<Sp> {
     type Scratch<S: Scalar> = Scratch<Sp, S>;
 
     fn formulation(&self) -> Formulation {
@@ -327,7 +341,7 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         path: &mut [S],
     ) -> S {
         let n = self.joint_count();
-        let (eta, joints) = point.x.split_at(Sp::ANGLES);
+        let (eta, joints) = point.x.split_at(self.attitude.count());
         let (theta, dtheta) = joints.split_at(n);
         let data = &mut scratch.data;
         self.tree.kinematics(theta, data);
@@ -339,8 +353,8 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         scratch.coriolis.copy_from_slice(&data.bias);
         data.factors.solve(&mut scratch.coriolis);
 
-        let (eta_rates, joint_rates) = rates.split_at_mut(Sp::ANGLES);
-        Sp::rates(eta, &data.base_rate, eta_rates);
+        let (eta_rates, joint_rates) = rates.split_at_mut(self.attitude.count());
+        self.attitude.rates(eta, &data.base_rate, eta_rates);
         let (velocities, accelerations) = joint_rates.split_at_mut(n);
         velocities.copy_from_slice(dtheta);
         for (a, (&u, &c)) in accelerations
@@ -372,7 +386,7 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         scratch: &mut Scratch<Sp, S>,
         rows: &mut [S],
     ) -> S {
-        let (eta, joints) = ends.terminal.split_at(Sp::ANGLES);
+        let (eta, joints) = ends.terminal.split_at(self.attitude.count());
         let mut cost = weighted_squares(&self.cost.final_base_attitude, eta);
         if self.cost.duration > 0.0 {
             cost += ends.duration * self.cost.duration;
@@ -390,10 +404,16 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
         }
         if let (Some(goal), Some(pose)) = (&self.goal, self.tree.end_effector(data)) {
             let carry = |position: &mut [S]| self.drift.carry(ends.duration, position);
-            goal.values(eta, pose, &data.system_center, carry, goal_rows);
+            goal.values(
+                (self.attitude, eta),
+                pose,
+                &data.system_center,
+                carry,
+                goal_rows,
+            );
         }
         if placed {
-            let mut end = base_position::<Sp, S>(eta, &data.system_center);
+            let mut end = self.attitude.base_position(eta, &data.system_center);
             self.drift.carry(ends.duration, end.components_mut());
             let weights = &self.cost.final_base_position;
             let start = self.start_position.components();
@@ -405,7 +425,7 @@ impl<Sp: Attitude> Ocp for FreeFloating<Sp> {
     }
 }
 
-impl<Sp: Attitude> FreeFloating<Sp> {
+impl<Sp: Space> FreeFloating<Sp> {
     /// ℒ of (14), with the weights on u and τ.
     fn running_cost<S: Scalar>(&self, eta_rates: &[S], dtheta: &[S], u: &[S], torque: &[S]) -> S {
         let cost = &self.cost;

@@ -2,7 +2,7 @@
 
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::Attitude;
-use crate::dynamics::space::Vector;
+use crate::dynamics::space::{Space, Vector};
 use crate::ocp::{Interval, Quantity};
 
 /// The frame a task-space goal is given in.
@@ -57,17 +57,20 @@ impl EndEffectorGoal {
 
 /// The boundary rows of a goal.
 #[derive(Debug, Clone)]
-pub(super) struct GoalRows<Sp: Attitude> {
+pub(super) struct GoalRows<Sp: Space> {
     goal: EndEffectorGoal,
     orientation: Option<Sp::Orientation<f64>>,
     /// Base position at t₀, inertial.
     start: Sp::Linear<f64>,
 }
 
-impl<Sp: Attitude> GoalRows<Sp> {
+impl<Sp: Space> GoalRows<Sp> {
     pub fn new(goal: &EndEffectorGoal, start: Sp::Linear<f64>) -> Self {
         Self {
-            orientation: goal.orientation.as_deref().map(Sp::orientation),
+            orientation: goal
+                .orientation
+                .as_deref()
+                .map(|angles| Sp::Attitude::BY_ANGLES.orientation(angles)),
             goal: goal.clone(),
             start,
         }
@@ -106,7 +109,7 @@ impl<Sp: Attitude> GoalRows<Sp> {
     /// system's mass centre; `carry` moves an inertial position with that mass centre.
     pub fn values<S: Scalar>(
         &self,
-        eta: &[S],
+        (attitude, eta): (Sp::Attitude, &[S]),
         (orientation, position): (Sp::Orientation<S>, Sp::Linear<S>),
         system_center: &Sp::Linear<S>,
         carry: impl Fn(&mut [S]),
@@ -122,7 +125,7 @@ impl<Sp: Attitude> GoalRows<Sp> {
             let seen = match self.goal.frame {
                 GoalFrame::Base => position,
                 GoalFrame::Inertial | GoalFrame::Start => {
-                    Sp::to_inertial(eta, &(position - *system_center))
+                    attitude.to_inertial(eta, &(position - *system_center))
                 }
             };
             at.copy_from_slice(seen.components());
@@ -138,7 +141,7 @@ impl<Sp: Attitude> GoalRows<Sp> {
         if let Some(goal) = &self.orientation {
             let seen = match self.goal.frame {
                 GoalFrame::Base => orientation,
-                GoalFrame::Inertial | GoalFrame::Start => Sp::orient(eta, &orientation),
+                GoalFrame::Inertial | GoalFrame::Start => attitude.orient(eta, &orientation),
             };
             Sp::turn_between(&seen, goal, turned);
         }

@@ -4,6 +4,7 @@ use super::{FreeFloating, Problem};
 use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::Space;
 use crate::transcription::Discretization;
 
 /// Steps of the base's integration along the whole motion.
@@ -62,43 +63,39 @@ impl JointPath {
 }
 
 /// The joint path on `mesh`, with the base attitude that momentum conservation gives.
-pub(super) fn along<Sp: Attitude>(
+pub(super) fn along<Sp: Space>(
     problem: &FreeFloating<Sp>,
     duration: f64,
     path: &JointPath,
     mesh: Mesh,
 ) -> Discretization {
-    let n = problem.joint_count();
+    let (n, angles) = (problem.joint_count(), problem.attitude().count());
     let attitude = follow(problem, duration, path);
     let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    Discretization::sample(mesh, duration, Sp::ANGLES + 2 * n, n, |fraction, x, u| {
+    Discretization::sample(mesh, duration, angles + 2 * n, n, |fraction, x, u| {
         path.at_fraction(fraction, &mut q, &mut dq, &mut ddq);
         let position = fraction * STEPS as f64;
         let (k, share) = (position as usize, position.fract());
         let (a, b) = (&attitude[k.min(STEPS)], &attitude[(k + 1).min(STEPS)]);
-        for i in 0..Sp::ANGLES {
+        for i in 0..angles {
             x[i] = a[i] + share * (b[i] - a[i]);
         }
         for j in 0..n {
-            x[Sp::ANGLES + j] = q[j];
-            x[Sp::ANGLES + n + j] = dq[j] / duration;
+            x[angles + j] = q[j];
+            x[angles + n + j] = dq[j] / duration;
             u[j] = ddq[j] / (duration * duration);
         }
     })
 }
 
 /// Base attitude on an even grid along the path, by the midpoint rule.
-fn follow<Sp: Attitude>(
-    problem: &FreeFloating<Sp>,
-    duration: f64,
-    path: &JointPath,
-) -> Vec<Vec<f64>> {
+fn follow<Sp: Space>(problem: &FreeFloating<Sp>, duration: f64, path: &JointPath) -> Vec<Vec<f64>> {
     let n = problem.joint_count();
-    let tree = problem.tree();
+    let (tree, parameters) = (problem.tree(), problem.attitude());
     let mut data = Data::<Sp, f64>::new(tree);
     let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    let mut rates = vec![0.0; Sp::ANGLES];
-    let mut attitude = vec![vec![0.0; Sp::ANGLES]];
+    let mut rates = vec![0.0; parameters.count()];
+    let mut attitude = vec![parameters.start().to_vec()];
     for k in 0..STEPS {
         path.at_fraction((k as f64 + 0.5) / STEPS as f64, &mut q, &mut dq, &mut ddq);
         tree.kinematics(&q, &mut data);
@@ -107,7 +104,7 @@ fn follow<Sp: Attitude>(
         let eta = &attitude[k];
         let mut turn = |at: &[f64]| -> Vec<f64> {
             problem.base_rate(at, &dq, &mut data);
-            Sp::rates(at, &data.base_rate, &mut rates);
+            parameters.rates(at, &data.base_rate, &mut rates);
             rates
                 .iter()
                 .map(|rate| rate * duration / STEPS as f64)

@@ -38,7 +38,7 @@ pub(super) struct Drift<Sp: Space> {
     angular: Option<Sp::Angular<f64>>,
 }
 
-impl<Sp: Attitude> Drift<Sp> {
+impl<Sp: Space> Drift<Sp> {
     pub fn new(momentum: &Momentum, total_mass: f64) -> Self {
         let any = |values: &[f64]| values.iter().any(|v| *v != 0.0);
         Self {
@@ -51,9 +51,9 @@ impl<Sp: Attitude> Drift<Sp> {
     }
 
     /// Adds I₀⁻¹RᵀL to the base's angular velocity.
-    pub fn tumble<S: Scalar>(&self, eta: &[S], data: &mut Data<Sp, S>) {
+    pub fn tumble<S: Scalar>(&self, attitude: Sp::Attitude, eta: &[S], data: &mut Data<Sp, S>) {
         if let Some(angular) = &self.angular {
-            let seen = Sp::to_base(eta, angular);
+            let seen = attitude.to_base(eta, angular);
             data.base_rate += Sp::apply(&data.inverse_inertia, &seen);
         }
     }

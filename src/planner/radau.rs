@@ -7,6 +7,7 @@ use super::{
 };
 use crate::collocation::MeshError;
 use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Nlp, ipopt};
 use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
 use crate::transcription::{Discretization, Patterns, Transcription};
@@ -101,7 +102,7 @@ impl Planner {
         }
     }
 
-    fn run<Sp: Attitude>(
+    fn run<Sp: Space>(
         &mut self,
         problem: &Problem,
         system: &FreeFloating<Sp>,
@@ -113,7 +114,7 @@ impl Planner {
         let mut solver = problem.solver.clone();
         let start = match start {
             Some(given) => {
-                check_start::<Sp>(given, problem)?;
+                check_start(given, system)?;
                 if given.iterate.is_some() {
                     solver.warm_start.get_or_insert(WARM_BARRIER);
                 }
@@ -196,11 +197,7 @@ impl Planner {
 
     /// Sparsity of `problem`, found anew only where the robot or the shape of the problem differ
     /// from the last one's.
-    fn patterns<Sp: Attitude>(
-        &mut self,
-        problem: &Problem,
-        system: &FreeFloating<Sp>,
-    ) -> &Patterns {
+    fn patterns<Sp: Space>(&mut self, problem: &Problem, system: &FreeFloating<Sp>) -> &Patterns {
         let known = self
             .patterns
             .as_ref()
@@ -242,7 +239,7 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
 }
 
 /// Cost (25) of a trajectory that no solve of the problem itself ended at.
-fn cost_of<Sp: Attitude>(
+fn cost_of<Sp: Space>(
     system: &FreeFloating<Sp>,
     patterns: &Patterns,
     trajectory: &Discretization,
@@ -273,9 +270,9 @@ fn near_singularity(trajectory: &Trajectory) -> Option<String> {
     })
 }
 
-fn check_start<Sp: Attitude>(start: &Start, problem: &Problem) -> Result<(), PlanError> {
-    let joints = problem.robot.joint_count();
-    let expected = Sp::ANGLES + 2 * joints;
+fn check_start<Sp: Space>(start: &Start, system: &FreeFloating<Sp>) -> Result<(), PlanError> {
+    let joints = system.joint_count();
+    let expected = system.attitude().count() + 2 * joints;
     let (found, controls) = (start.trajectory.states, start.trajectory.controls);
     if (found, controls) == (expected, joints) {
         Ok(())

@@ -2,8 +2,8 @@
 
 use super::{FreeFloating, Problem};
 use crate::dynamics::Data;
-use crate::dynamics::attitude::{Attitude, base_position};
-use crate::dynamics::space::Vector;
+use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::{Space, Vector};
 
 /// Where the base ends after the straight joint path: what planning has to beat.
 ///
@@ -27,8 +27,8 @@ pub fn straight_line(problem: &Problem) -> StraightLine {
 /// Steps of the classical Runge-Kutta method; its error is far below what is shown.
 const STEPS: usize = 500;
 
-fn integrate<Sp: Attitude>(problem: &Problem, system: &FreeFloating<Sp>) -> StraightLine {
-    let tree = system.tree();
+fn integrate<Sp: Space>(problem: &Problem, system: &FreeFloating<Sp>) -> StraightLine {
+    let (tree, attitude) = (system.tree(), system.attitude());
     let (from, to) = (&problem.task.initial_joints, &problem.task.final_joints);
     let span: Vec<f64> = from.iter().zip(to).map(|(a, b)| b - a).collect();
     let mut data = Data::<Sp, f64>::new(tree);
@@ -37,14 +37,14 @@ fn integrate<Sp: Attitude>(problem: &Problem, system: &FreeFloating<Sp>) -> Stra
         tree.kinematics(&q, &mut data);
         tree.momentum(&mut data);
         tree.base_rate(&span, &mut data);
-        let mut rates = vec![0.0; Sp::ANGLES];
-        Sp::rates(eta, &data.base_rate, &mut rates);
+        let mut rates = vec![0.0; attitude.count()];
+        attitude.rates(eta, &data.base_rate, &mut rates);
         rates
     };
     let moved = |eta: &[f64], k: &[f64], h: f64| -> Vec<f64> {
         eta.iter().zip(k).map(|(a, b)| a + h * b).collect()
     };
-    let mut eta = vec![0.0; Sp::ANGLES];
+    let mut eta = attitude.start().to_vec();
     let h = 1.0 / STEPS as f64;
     for step in 0..STEPS {
         let s = step as f64 * h;
@@ -52,7 +52,7 @@ fn integrate<Sp: Attitude>(problem: &Problem, system: &FreeFloating<Sp>) -> Stra
         let k2 = rates(s + 0.5 * h, &moved(&eta, &k1, 0.5 * h));
         let k3 = rates(s + 0.5 * h, &moved(&eta, &k2, 0.5 * h));
         let k4 = rates(s + h, &moved(&eta, &k3, h));
-        for i in 0..Sp::ANGLES {
+        for i in 0..eta.len() {
             eta[i] += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
         }
     }
@@ -60,11 +60,12 @@ fn integrate<Sp: Attitude>(problem: &Problem, system: &FreeFloating<Sp>) -> Stra
         let mut data = Data::<Sp, f64>::new(tree);
         tree.kinematics(q, &mut data);
         tree.momentum(&mut data);
-        base_position::<Sp, f64>(eta, &data.system_center)
+        attitude
+            .base_position(eta, &data.system_center)
             .components()
             .to_vec()
     };
-    let start = position(from, &vec![0.0; Sp::ANGLES]);
+    let start = position(from, attitude.start());
     let end = position(to, &eta);
     StraightLine {
         base_displacement: end.iter().zip(&start).map(|(a, b)| a - b).collect(),

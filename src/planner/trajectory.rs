@@ -3,8 +3,8 @@
 use super::free_floating::torques;
 use super::{FreeFloating, Metrics, Trajectory};
 use crate::dynamics::Data;
-use crate::dynamics::attitude::{Attitude, base_position};
-use crate::dynamics::space::Vector;
+use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::{Space, Vector};
 use crate::ocp::Ocp;
 use crate::transcription::Discretization;
 
@@ -12,20 +12,20 @@ use crate::transcription::Discretization;
 ///
 /// The control has no value of its own at t_f, which is not collocated: its polynomial is
 /// extrapolated there and kept within its limits.
-pub(super) fn trajectory<Sp: Attitude>(
+pub(super) fn trajectory<Sp: Space>(
     problem: &FreeFloating<Sp>,
     plan: &Discretization,
 ) -> Trajectory {
     let n = problem.joint_count();
     let controls = problem.formulation().controls;
-    let tree = problem.tree();
+    let (tree, attitude) = (problem.tree(), problem.attitude());
     let mut data = Data::<Sp, f64>::new(tree);
     let mut out = Trajectory {
         t: plan.times(),
         ..Trajectory::default()
     };
     for k in 0..=plan.mesh.points() {
-        let (eta, joints) = plan.state(k).split_at(Sp::ANGLES);
+        let (eta, joints) = plan.state(k).split_at(attitude.count());
         let (theta, dtheta) = joints.split_at(n);
         let mut u = vec![0.0; n];
         if k < plan.mesh.points() {
@@ -40,11 +40,11 @@ pub(super) fn trajectory<Sp: Attitude>(
         tree.momentum(&mut data);
         problem.base_rate(eta, dtheta, &mut data);
         tree.mass_matrix(&mut data);
-        let mut rates = vec![0.0; Sp::ANGLES];
-        Sp::rates(eta, &data.base_rate, &mut rates);
+        let mut rates = vec![0.0; attitude.count()];
+        attitude.rates(eta, &data.base_rate, &mut rates);
         let mut torque = vec![0.0; n];
         torques(&data.mass_matrix, &u, &mut torque);
-        let mut position = base_position::<Sp, f64>(eta, &data.system_center);
+        let mut position = attitude.base_position(eta, &data.system_center);
         problem.carry(out.t[k], position.components_mut());
         out.base_attitude.push(eta.to_vec());
         out.base_position.push(position.components().to_vec());
