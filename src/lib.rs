@@ -8,6 +8,7 @@ pub mod dynamics;
 pub mod nlp;
 pub mod ocp;
 pub mod planner;
+pub mod plot;
 pub mod refine;
 pub mod report;
 pub mod transcription;

@@ -36,7 +36,7 @@ impl Failure {
         match self {
             Self::Config(_) | Self::Solution(_) | Self::Start { .. } | Self::Verify { .. } => 2,
             Self::Output(OutputError::Folder { .. }) => 2,
-            Self::Output(OutputError::File { .. }) => 1,
+            Self::Output(OutputError::File { .. } | OutputError::Figure { .. }) => 1,
             Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,
             Self::NoLinearSolver => 1,
         }

@@ -1,5 +1,6 @@
 //! The output folder: known to be writable before anything is solved, files written whole.
 
+use crate::plot::{self, Figure, PlotError};
 use std::fs::Permissions;
 use std::io::{self, Write};
 use std::os::unix::fs::PermissionsExt;
@@ -26,6 +27,14 @@ pub enum OutputError {
         path: PathBuf,
         /// What the system says.
         source: io::Error,
+    },
+    /// A figure for it.
+    #[error("{}: {source}", path.display())]
+    Figure {
+        /// The file.
+        path: PathBuf,
+        /// Why it cannot be drawn.
+        source: PlotError,
     },
 }
 
@@ -59,13 +68,21 @@ impl OutputFolder {
     /// # Errors
     /// [`OutputError::File`]; the file is then as it was before.
     pub fn write(&self, name: &str, contents: &str) -> Result<PathBuf, OutputError> {
+        self.write_bytes(name, contents.as_bytes())
+    }
+
+    /// [`Self::write`] for what is no text.
+    ///
+    /// # Errors
+    /// [`OutputError::File`]; the file is then as it was before.
+    pub fn write_bytes(&self, name: &str, contents: &[u8]) -> Result<PathBuf, OutputError> {
         let path = self.path.join(name);
         let write = || {
             // A temporary file is the owner's alone; a result is as open as any new file.
             let mut file = tempfile::Builder::new()
                 .permissions(Permissions::from_mode(0o666))
                 .tempfile_in(&self.path)?;
-            file.write_all(contents.as_bytes())?;
+            file.write_all(contents)?;
             file.persist(&path)?;
             Ok(())
         };
@@ -74,5 +91,22 @@ impl OutputFolder {
             source,
         })?;
         Ok(path)
+    }
+
+    /// Writes a figure as `name.svg` and `name.png`; their paths are returned.
+    ///
+    /// # Errors
+    /// [`OutputError::File`] and [`OutputError::Figure`].
+    pub fn write_figure(&self, name: &str, figure: &Figure) -> Result<[PathBuf; 2], OutputError> {
+        let svg = figure.svg();
+        let picture = format!("{name}.png");
+        let pixels = plot::png(&svg).map_err(|source| OutputError::Figure {
+            path: self.path.join(&picture),
+            source,
+        })?;
+        Ok([
+            self.write(&format!("{name}.svg"), &svg)?,
+            self.write_bytes(&picture, &pixels)?,
+        ])
     }
 }

@@ -1,0 +1,42 @@
+//! An axis as asked for; its range is found from the data.
+
+/// How values are laid along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scale {
+    Linear,
+    Log,
+}
+
+/// A labelled axis. The label carries the unit: "Time (s)".
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    pub(super) label: String,
+    pub(super) scale: Scale,
+    pub(super) range: Option<[f64; 2]>,
+}
+
+impl Axis {
+    /// An axis with even steps.
+    pub fn linear(label: &str) -> Self {
+        Self {
+            label: label.into(),
+            scale: Scale::Linear,
+            range: None,
+        }
+    }
+
+    /// An axis with decades; values that are not positive are left out.
+    pub fn log(label: &str) -> Self {
+        Self {
+            scale: Scale::Log,
+            ..Self::linear(label)
+        }
+    }
+
+    /// From `low` to `high` whatever the data.
+    #[must_use]
+    pub fn range(mut self, low: f64, high: f64) -> Self {
+        self.range = Some([low, high]);
+        self
+    }
+}

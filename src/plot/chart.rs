@@ -1,0 +1,107 @@
+//! A chart: two axes and what is drawn between them.
+
+use super::axis::Axis;
+use super::series::Series;
+use super::shape::Shape;
+
+/// Values that must not be exceeded, drawn dashed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bounds {
+    pub label: String,
+    pub values: Vec<f64>,
+}
+
+/// One panel of a figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chart {
+    pub(super) title: String,
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+    pub(super) series: Vec<Series>,
+    pub(super) bounds: Vec<Bounds>,
+    pub(super) divisions: Vec<f64>,
+    pub(super) shapes: Vec<Shape>,
+    pub(super) height: f64,
+    pub(super) equal_scale: bool,
+    pub(super) legend: bool,
+}
+
+impl Chart {
+    /// An empty chart, 110 points high between its axes.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self {
+            title: String::new(),
+            x,
+            y,
+            series: Vec::new(),
+            bounds: Vec::new(),
+            divisions: Vec::new(),
+            shapes: Vec::new(),
+            height: 110.0,
+            equal_scale: false,
+            legend: true,
+        }
+    }
+
+    /// A line of text above the chart.
+    #[must_use]
+    pub fn title(mut self, title: &str) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// Adds a series; series without a colour of their own take those of the palette in turn.
+    #[must_use]
+    pub fn series(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Adds horizontal bounds, dashed, with one entry in the legend.
+    ///
+    /// Bounds so far away that the data would shrink below a third of the height are not drawn;
+    /// the legend then says that they lie beyond the axis.
+    #[must_use]
+    pub fn bounds(mut self, label: &str, values: &[f64]) -> Self {
+        self.bounds.push(Bounds {
+            label: label.into(),
+            values: values.to_vec(),
+        });
+        self
+    }
+
+    /// Thin vertical lines, for the boundaries of segments.
+    #[must_use]
+    pub fn divisions(mut self, x: &[f64]) -> Self {
+        self.divisions.extend_from_slice(x);
+        self
+    }
+
+    /// Adds a shape in the units of the axes.
+    #[must_use]
+    pub fn shape(mut self, shape: Shape) -> Self {
+        self.shapes.push(shape);
+        self
+    }
+
+    /// Height between the axes, in points.
+    #[must_use]
+    pub fn height(mut self, points: f64) -> Self {
+        self.height = points;
+        self
+    }
+
+    /// The same length for a unit along both axes: a drawing to scale.
+    #[must_use]
+    pub fn equal_scale(mut self) -> Self {
+        self.equal_scale = true;
+        self
+    }
+
+    /// No legend, where another panel has the same one.
+    #[must_use]
+    pub fn without_legend(mut self) -> Self {
+        self.legend = false;
+        self
+    }
+}

@@ -1,0 +1,182 @@
+//! A figure: panels in columns.
+
+use super::canvas::Canvas;
+use super::chart::Chart;
+use super::draw::Layout;
+
+/// Width of a figure on a two-column page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Width {
+    /// One column, 252 points (89 mm).
+    Column,
+    /// Both columns, 516 points (182 mm).
+    Page,
+}
+
+impl Width {
+    fn points(self) -> f64 {
+        match self {
+            Self::Column => 252.0,
+            Self::Page => 516.0,
+        }
+    }
+}
+
+/// Panels side by side or below each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    description: String,
+    width: Width,
+    columns: usize,
+    panels: Vec<Chart>,
+}
+
+/// Between rows of panels, points.
+const BETWEEN: f64 = 7.0;
+
+impl Figure {
+    /// An empty figure; the description is for those who cannot see it.
+    pub fn new(description: &str, width: Width) -> Self {
+        Self {
+            description: description.into(),
+            width,
+            columns: 1,
+            panels: Vec::new(),
+        }
+    }
+
+    /// Panels side by side, 1 unless said.
+    #[must_use]
+    pub fn columns(mut self, columns: usize) -> Self {
+        self.columns = columns.max(1);
+        self
+    }
+
+    /// Adds a panel, row by row from the left.
+    #[must_use]
+    pub fn panel(mut self, chart: Chart) -> Self {
+        self.panels.push(chart);
+        self
+    }
+
+    /// The figure as an SVG document.
+    pub fn svg(&self) -> String {
+        let total = self.width.points();
+        let cell = total / self.columns as f64;
+        // Frames below each other are aligned.
+        let left = |column: usize| {
+            self.panels
+                .iter()
+                .skip(column)
+                .step_by(self.columns)
+                .map(Chart::left_margin)
+                .fold(0.0, f64::max)
+        };
+        let lefts: Vec<f64> = (0..self.columns).map(left).collect();
+        let mut canvas = Canvas::default();
+        let mut top = 2.0;
+        for row in self.panels.chunks(self.columns) {
+            let layouts: Vec<Layout<'_>> = row
+                .iter()
+                .zip(&lefts)
+                .map(|(chart, left)| Layout::new(chart, cell - left - 10.0))
+                .collect();
+            let margins: Vec<_> = layouts.iter().map(Layout::margins).collect();
+            let above = margins.iter().map(|m| m.top).fold(0.0, f64::max);
+            for (column, layout) in layouts.iter().enumerate() {
+                let corner = [cell * column as f64 + lefts[column] + 1.0, top + above];
+                layout.draw(&mut canvas, corner);
+            }
+            let below = row
+                .iter()
+                .zip(&margins)
+                .map(|(chart, m)| chart.height + m.bottom)
+                .fold(0.0, f64::max);
+            top += above + below + BETWEEN;
+        }
+        canvas.finish(&self.description, total, top)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::{Axis, Colour, Marker, Series, Shape, png};
+
+    fn figure() -> Figure {
+        let t: Vec<f64> = (0..=100).map(|k| 0.2 * f64::from(k)).collect();
+        let of = |f: fn(f64) -> f64| t.iter().map(|t| f(*t)).collect::<Vec<f64>>();
+        let swing = Chart::new(Axis::linear("Time (s)"), Axis::linear("Angle (deg)"))
+            .title("(a) Joint angles")
+            .series(Series::line("θ₁", &t, &of(|t| 60.0 * t.sin())))
+            .series(Series::line("θ₂", &t, &of(|t| 3.0 * t)))
+            .bounds("limit ±90°", &[-90.0, 90.0])
+            .bounds("limit ±5000°", &[5000.0])
+            .divisions(&[5.0, 10.0]);
+        let errors = Chart::new(Axis::linear("Time (s)"), Axis::log("Error"))
+            .title("(b) Error")
+            .series(Series::steps("η", &[0.0, 5.0, 20.0], &[1e-4, 3e-7]))
+            .series(Series::scatter("θ₁", &t, &of(|t| 1e-6 * t), Marker::Ring))
+            .bounds("tolerance", &[1e-5]);
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let scale = Chart::new(Axis::linear("x (m)"), Axis::linear("y (m)"))
+            .equal_scale()
+            .shape(Shape::Polygon {
+                corners: square.to_vec(),
+                outline: Colour::Black,
+                fill: None,
+            });
+        Figure::new("A test", Width::Page)
+            .columns(2)
+            .panel(swing)
+            .panel(errors)
+            .panel(scale)
+    }
+
+    #[test]
+    fn a_figure_is_whole_and_the_same_every_time() {
+        let svg = figure().svg();
+        assert_eq!(svg, figure().svg());
+        for part in [
+            "Time (s)",
+            "θ₂",
+            "limit ±90°",
+            "limit ±5000° (beyond the axis)",
+            "10⁻⁵",
+            "−50",
+            "stroke-dasharray=\"5 2.5\"",
+            "<title>A test</title>",
+        ] {
+            assert!(svg.contains(part), "{part}");
+        }
+        // The far bound is left out: two bounds and a tolerance, and their three samples.
+        let dashed = svg.matches("stroke-dasharray=\"5 2.5\"").count();
+        assert_eq!(dashed, 3 + 3);
+        let picture = png(&svg).unwrap();
+        assert_eq!(picture, png(&svg).unwrap());
+        assert_eq!(picture[16..20], 2064_u32.to_be_bytes());
+    }
+
+    #[test]
+    fn a_drawing_is_to_scale() {
+        let svg = figure().svg();
+        let outline = svg
+            .lines()
+            .rfind(|line| line.ends_with("stroke-width=\"0.7\" stroke-linejoin=\"round\"/>"))
+            .unwrap();
+        let data = outline.split('"').nth(1).unwrap();
+        let corners: Vec<[f64; 2]> = data[1..data.len() - 1]
+            .split('L')
+            .map(|pair| {
+                let mut values = pair.split(' ').map(|v| v.parse::<f64>().unwrap());
+                [values.next().unwrap(), values.next().unwrap()]
+            })
+            .collect();
+        let side = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        let [wide, high] = [side(corners[0], corners[1]), side(corners[1], corners[2])];
+        assert!(
+            wide > 20.0 && (wide - high).abs() < 0.03,
+            "{wide} by {high}"
+        );
+    }
+}
