@@ -9,7 +9,7 @@ use serde_json::Value;
 fn help_names_every_command() {
     let run = Folder::new(PROBLEM).run(&["--help"]);
     assert_eq!(run.code, 0);
-    for command in ["plan", "check", "table2", "verify", "doctor"] {
+    for command in ["plan", "check", "table2", "verify", "simulate", "doctor"] {
         assert!(
             run.stdout
                 .lines()
@@ -340,6 +340,64 @@ fn a_saved_plan_is_verified_without_its_files() {
         found.contains("provenance: ") && found.contains("did you mean 'duration'?"),
         "{found}"
     );
+}
+
+#[test]
+fn a_saved_plan_is_simulated() {
+    let folder = Folder::new(PROBLEM);
+    let plan = ["plan", "case.toml", "--out", "a", "--quiet"];
+    assert_eq!(folder.run(&plan).code, 0);
+    folder.write(
+        "table.toml",
+        "schema = 1\nseed = 5\n[floor]\ntilt = [1e-5, 0.0]\n\
+         [air]\ndrag_area = { base = 0.1 }\n[[pads]]\nbody = \"forearm\"\n\
+         [actuator]\ntorque_noise = 1e-3\ndelay = 2e-3\n\
+         [capture]\nrate = 10\nposition_noise = 1e-4\n",
+    );
+    let simulate = |more: &[&str]| {
+        let run = folder.run(&[&["simulate", "a/solution.json", "table.toml"], more].concat());
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+        run.stdout
+    };
+    let printed = simulate(&["--repeat", "3"]);
+    assert!(
+        printed.starts_with("case on table: 3 runs, seed 5\n"),
+        "{printed}"
+    );
+    assert!(printed.contains("largest attitude"), "{printed}");
+    let read = |name: &str| -> Value { serde_json::from_str(&folder.read(name)).unwrap() };
+    let found = read("out/case/table/simulation.json");
+    assert_eq!(found["runs"].as_array().unwrap().len(), 3);
+    let frames = found["t"].as_array().unwrap().len();
+    assert_eq!(frames, 201);
+    // A tilt of 1e-5 moves the whole by 2 cm in 20 s.
+    let x = |figures: &Value| figures["final_x"].as_f64().unwrap();
+    let moved = found["measured_figures"]["final_x"]["mean"]
+        .as_f64()
+        .unwrap()
+        - x(&found["planned_figures"]);
+    assert!((moved - 0.0196).abs() < 1e-3, "{moved}");
+    let spread = &found["measured_figures"]["final_x"];
+    let deviation = spread["deviation"].as_f64().unwrap();
+    assert!(deviation > 1e-6 && deviation < 1e-3, "{spread}");
+    let csv = folder.read("out/case/table/simulation.csv");
+    assert!(
+        csv.starts_with("run,t,planned_x,planned_y,planned_eta,measured_x,"),
+        "{csv}"
+    );
+    assert!(
+        csv.lines()
+            .next()
+            .unwrap()
+            .ends_with(",th_1,th_2,tau_1,tau_2")
+    );
+    assert_eq!(csv.lines().count(), 1 + 3 * frames);
+
+    // The same again is the same; another seed is not.
+    simulate(&["--repeat", "3", "--out", "again"]);
+    assert_eq!(read("again/simulation.json")["runs"], found["runs"]);
+    simulate(&["--repeat", "3", "--seed", "6", "--out", "other"]);
+    assert_ne!(read("other/simulation.json")["runs"][0], found["runs"][0]);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crate::config::{ConfigError, ProblemFile};
 use crate::nlp::ipopt::IpoptError;
 use crate::planner::PlanError;
 use crate::report::{OutputError, SolutionError};
+use crate::simulate::SimulateError;
 use crate::verify::VerifyError;
 use std::path::Path;
 
@@ -18,6 +19,8 @@ pub(super) enum Failure {
     Verify { path: String, source: VerifyError },
     #[error("{path}: {source}")]
     Start { path: String, source: PlanError },
+    #[error("{path}: {source}")]
+    Simulate { path: String, source: SimulateError },
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error("{path}: {source}")]
@@ -34,7 +37,11 @@ impl Failure {
     /// 2 where the input is to blame, else 1.
     pub(super) fn code(&self) -> u8 {
         match self {
-            Self::Config(_) | Self::Solution(_) | Self::Start { .. } | Self::Verify { .. } => 2,
+            Self::Config(_)
+            | Self::Solution(_)
+            | Self::Start { .. }
+            | Self::Verify { .. }
+            | Self::Simulate { .. } => 2,
             Self::Output(OutputError::Folder { .. }) => 2,
             Self::Output(OutputError::File { .. } | OutputError::Figure { .. }) => 1,
             Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,

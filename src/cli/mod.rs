@@ -7,6 +7,7 @@ mod interrupt;
 mod plan;
 mod progress;
 mod show;
+mod simulate;
 mod table2;
 mod table2_report;
 mod terminal;
@@ -46,6 +47,7 @@ enum Command {
     Check(check::Arguments),
     Table2(table2::Arguments),
     Verify(verify::Arguments),
+    Simulate(simulate::Arguments),
     Doctor(doctor::Arguments),
 }
 
@@ -59,6 +61,7 @@ pub fn run() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Table2(arguments) => table2::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match result {

@@ -1,9 +1,11 @@
-//! Problem and robot files: TOML in, a validated [`Problem`](crate::planner::Problem) out.
+//! Problem, robot and platform files: TOML in, a validated
+//! [`Problem`](crate::planner::Problem) or [`Platform`](crate::simulate::Platform) out.
 //!
 //! A document is parsed with the line of every value ([`Place`]), values given on the command
 //! line are laid over it ([`Overrides`]), and one reader a table turns it into a problem. Every
 //! error is one line that names the file, the line, the key, what stands there and what was
-//! expected. docs/problem-file.md and docs/robot-file.md describe the formats.
+//! expected. docs/problem-file.md, docs/robot-file.md and docs/platform-file.md describe the
+//! formats.
 
 mod document;
 mod error;
@@ -13,6 +15,7 @@ mod inertia;
 mod item;
 mod keep_out;
 mod overrides;
+mod platform;
 mod problem;
 mod robot;
 mod tables;
@@ -20,6 +23,7 @@ mod values;
 
 pub use error::{ConfigError, Place};
 pub use overrides::Overrides;
+pub use platform::PlatformFile;
 pub use problem::ProblemFile;
 pub use robot::RobotFile;
 

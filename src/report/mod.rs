@@ -14,6 +14,7 @@ mod number;
 mod output;
 mod provenance;
 mod read;
+mod simulation;
 mod solution;
 mod summary;
 mod verification;
@@ -28,6 +29,7 @@ pub use lines::Lines;
 pub use output::{OutputError, OutputFolder};
 pub use provenance::Provenance;
 pub use read::{Saved, SolutionError, read_solution};
+pub use simulation::Simulation;
 pub use solution::{
     Diagnosis, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing, Trajectory,
     Verification,

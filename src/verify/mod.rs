@@ -125,9 +125,8 @@ pub enum VerifyError {
 /// # Errors
 /// [`VerifyError`] where plan and robot do not belong together or the integration gets stuck.
 pub fn verify(problem: &Problem, plan: &Discretization) -> Result<Verification, VerifyError> {
-    let model = &problem.robot;
-    let (angles, _) = Problem::base_sizes(model);
-    check(model.name(), angles, model.joint_count(), plan)?;
+    check(problem, plan)?;
+    let (angles, _) = Problem::base_sizes(&problem.robot);
     let mut found = Verification::default();
     let planned = || pass::Planned::new(problem, plan, angles);
     pass::run(forward::Forward::new(planned()), plan, &mut found)?;
@@ -135,7 +134,17 @@ pub fn verify(problem: &Problem, plan: &Discretization) -> Result<Verification, 
     Ok(found)
 }
 
-fn check(robot: &str, angles: usize, n: usize, plan: &Discretization) -> Result<(), VerifyError> {
+/// Whether `plan` has the states and controls of `problem`'s robot, all of them finite.
+///
+/// # Errors
+/// [`VerifyError`] for the first thing that is wrong.
+pub fn check(problem: &Problem, plan: &Discretization) -> Result<(), VerifyError> {
+    let model = &problem.robot;
+    let (angles, _) = Problem::base_sizes(model);
+    shape(model.name(), angles, model.joint_count(), plan)
+}
+
+fn shape(robot: &str, angles: usize, n: usize, plan: &Discretization) -> Result<(), VerifyError> {
     let points = plan.mesh.points();
     let (states, controls) = (angles + 2 * n, n);
     for (what, found, expected) in [
