@@ -16,6 +16,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let mut problem = ProblemFile::load(Path::new(file), &Overrides::default())?.problem;
     let mut planner = Planner::new();
     let mut last: Option<Start> = None;
+    let mut cold = 0;
     for degrees in [60.0_f64, 62.0, 64.0, 66.0, 68.0, 70.0] {
         problem.task.final_joints[1] = degrees.to_radians();
         let plan = planner.plan_with(&problem, last.as_ref(), &mut |_| Control::Continue)?;
@@ -27,6 +28,14 @@ pub fn main() -> Result<(), Box<dyn Error>> {
             plan.discretization.state(plan.discretization.mesh.points())[0].to_degrees(),
             plan.timing.total.as_secs_f64() * 1e3,
         );
+        if last.is_none() {
+            cold = iterations;
+        } else {
+            assert!(
+                2 * iterations < cold,
+                "{iterations} iterations, {cold} at first"
+            );
+        }
         last = Some(Start {
             trajectory: plan.discretization,
             iterate: Some(plan.iterate),

@@ -3,7 +3,8 @@
 mod problems;
 
 use ffsm_ipopt::nlp::Control;
-use ffsm_ipopt::planner::{Planner, Start, Status, plan, straight_line};
+use ffsm_ipopt::ocp::Interval;
+use ffsm_ipopt::planner::{Plan, Planner, Start, Status, plan, straight_line};
 use ffsm_ipopt::refine::{Decision, Method};
 
 #[test]
@@ -140,6 +141,66 @@ fn a_saved_solution_starts_the_next_plan() {
         .unwrap();
     assert!((warm.objective - cold.objective).abs() < 1e-9);
     assert!(warm.iterations[0].nlp_iterations < cold.iterations[0].nlp_iterations);
+}
+
+/// Solver iterations on all meshes.
+fn effort(plan: &Plan) -> u32 {
+    plan.iterations.iter().map(|r| r.nlp_iterations).sum()
+}
+
+fn saved(plan: &Plan) -> Start {
+    Start {
+        trajectory: plan.discretization.clone(),
+        iterate: Some(plan.iterate.clone()),
+    }
+}
+
+#[test]
+fn a_replan_takes_under_half_the_iterations_of_a_cold_one() {
+    for problem in [problems::smooth(), problems::relaxed()] {
+        let mut planner = Planner::new();
+        let start = saved(&planner.plan(&problem).unwrap());
+        for degrees in [[0.0, 5.0], [5.0, 5.0], [-5.0, -5.0]] {
+            let mut moved = problem.clone();
+            for (goal, by) in moved.task.final_joints.iter_mut().zip(degrees) {
+                *goal += by.to_radians();
+            }
+            let cold = planner.plan(&moved).unwrap();
+            let warm = planner
+                .plan_with(&moved, Some(&start), &mut |_| Control::Continue)
+                .unwrap();
+            assert_eq!(warm.status, Status::Solved);
+            assert!((warm.objective - cold.objective).abs() < 1e-6);
+            let (warm, cold) = (effort(&warm), effort(&cold));
+            assert!(
+                2 * warm < cold,
+                "{}, {degrees:?}: {warm} of {cold}",
+                moved.name
+            );
+        }
+    }
+}
+
+#[test]
+fn multipliers_are_taken_over_by_a_problem_with_other_rows() {
+    let problem = problems::smooth();
+    let mut planner = Planner::new();
+    let start = saved(&planner.plan(&problem).unwrap());
+    let mut limited = problem.clone();
+    limited.limits.torque = vec![Interval::symmetric(1.0); 2];
+    let primal = Start {
+        iterate: None,
+        ..start.clone()
+    };
+    let mut from = |start: &Start| {
+        let plan = planner
+            .plan_with(&limited, Some(start), &mut |_| Control::Continue)
+            .unwrap();
+        assert_eq!(plan.status, Status::Solved);
+        effort(&plan)
+    };
+    let (warm, cold) = (from(&start), from(&primal));
+    assert!(2 * warm <= cold, "{warm} of {cold}");
 }
 
 #[test]

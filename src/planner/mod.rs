@@ -10,6 +10,7 @@ mod momentum;
 mod plan;
 mod problem;
 mod radau;
+mod replan;
 mod straight_line;
 mod trajectory;
 

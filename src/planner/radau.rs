@@ -1,6 +1,7 @@
 //! Plans by the adaptive or the global Radau pseudospectral method.
 
 use super::guess::{JointPath, along};
+use super::replan::bend;
 use super::trajectory::{metrics, trajectory};
 use super::{
     Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, Trajectory, diagnosis,
@@ -15,7 +16,7 @@ use crate::transcription::{Discretization, Patterns, Transcription};
 use std::time::{Duration, Instant};
 
 /// Barrier parameter a saved solution is taken up with.
-const WARM_BARRIER: f64 = 1e-4;
+const WARM_BARRIER: f64 = 1e-8;
 
 /// Why there is no plan at all.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -78,7 +79,8 @@ impl Planner {
 
     /// Plans `problem` from `start`, telling `monitor` of every step.
     ///
-    /// A start with multipliers makes the first solve a warm one.
+    /// The start is led to the problem's own ends first. One with multipliers makes the first solve
+    /// a warm one; they may be those of a problem with other rows on the same robot.
     ///
     /// # Errors
     /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
@@ -118,7 +120,10 @@ impl Planner {
                 if given.iterate.is_some() {
                     solver.warm_start.get_or_insert(WARM_BARRIER);
                 }
-                given.clone()
+                Start {
+                    trajectory: bend(&given.trajectory, problem),
+                    iterate: given.iterate.clone(),
+                }
             }
             None => {
                 let path = JointPath::new(problem, Vec::new());

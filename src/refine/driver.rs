@@ -1,15 +1,16 @@
 //! Solves on one mesh after another until the error is within the tolerance.
 
-use super::transfer::{Duals, resample};
+use super::transfer::{Duals, resample, saved_layout};
 use super::{Record, Settings, midpoint_errors, quadrature_error, refine};
 use crate::collocation::Mesh;
-use crate::nlp::{self, Control, Iterate, Nlp, Progress, Statistics, Status, ipopt};
+use crate::nlp::{self, Control, Iterate, Progress, Statistics, Status, ipopt};
 use crate::ocp::Ocp;
 use crate::transcription::{Discretization, Layout, Patterns, Transcription};
 use std::time::Instant;
 
-/// Barrier parameter that a refined mesh starts with.
-const REFINED_BARRIER: f64 = 1e-6;
+/// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: below
+/// it, so that the first barrier problem is the last.
+const REFINED_BARRIER: f64 = 0.5;
 
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
@@ -134,26 +135,44 @@ impl<O: Ocp> Refinement<'_, O> {
             let x = program.pack(&trajectory);
             let mut settings = self.solver.clone();
             let iterate = match (&previous, &start.iterate) {
-                (Some((mesh, layout, iterate)), _) => {
-                    settings.warm_start = Some(REFINED_BARRIER);
-                    Duals::new(mesh, layout, iterate).on(&trajectory.mesh, program.layout(), x)
+                (Some((old, layout, iterate)), _) => {
+                    settings.warm_start = Some(REFINED_BARRIER * settings.tolerance);
+                    Duals::new(old, layout, iterate).on(&mesh, program.layout(), x)
                 }
-                (None, Some(warm)) if settings.warm_start.is_some() && belongs(warm, &program) => {
-                    Iterate { x, ..warm.clone() }
+                (None, Some(warm)) if settings.warm_start.is_some() => {
+                    match saved_layout(warm, program.layout()) {
+                        Some(old) if old == *program.layout() => Iterate { x, ..warm.clone() },
+                        Some(old) => Duals::new(&mesh, &old, warm).on(&mesh, program.layout(), x),
+                        None => Iterate::primal(x),
+                    }
                 }
-                _ => {
-                    settings.warm_start = None;
-                    Iterate::primal(x)
-                }
+                _ => Iterate::primal(x),
             };
-            let solution = ipopt::solve(&mut program, &settings, &iterate, &mut |progress| {
-                if stopped {
-                    Control::Stop
-                } else {
-                    monitor(Event::Solver(progress))
+            if !iterate.has_multipliers(program.layout().rows()) {
+                settings.warm_start = None;
+            }
+            let mut solve = |settings: &nlp::Settings, iterate: &Iterate| {
+                let solution = ipopt::solve(&mut program, settings, iterate, &mut |progress| {
+                    if stopped {
+                        Control::Stop
+                    } else {
+                        monitor(Event::Solver(progress))
+                    }
+                });
+                if let Ok(solution) = &solution {
+                    statistics.add(&solution.statistics);
                 }
-            })?;
-            statistics.add(&solution.statistics);
+                solution
+            };
+            let mut solution = solve(&settings, &iterate)?;
+            let mut nlp_iterations = solution.statistics.iterations;
+            let gave_up = !solution.status.is_solved() && solution.status != Status::Interrupted;
+            if gave_up && settings.warm_start.take().is_some() {
+                // Multipliers may mislead; the same trajectory without them has every chance of
+                // a cold start.
+                solution = solve(&settings, &Iterate::primal(iterate.x))?;
+                nlp_iterations += solution.statistics.iterations;
+            }
             trajectory = program.unpack(&solution.iterate.x);
             let errors = midpoint_errors(self.ocp, &trajectory);
             let max_error = errors.max();
@@ -176,7 +195,7 @@ impl<O: Ocp> Refinement<'_, O> {
                 segment_errors: errors.by_segment,
                 max_error,
                 objective: solution.objective,
-                nlp_iterations: solution.statistics.iterations,
+                nlp_iterations,
                 nlp_status: solution.status,
                 time: began.elapsed(),
                 decisions: next.as_ref().map_or_else(Vec::new, |(_, d)| d.clone()),
@@ -201,11 +220,4 @@ impl<O: Ocp> Refinement<'_, O> {
             }
         }
     }
-}
-
-/// Whether the multipliers of a saved iterate are those of this programme: other limits or another
-/// mesh make other rows, and the start is then a primal one.
-fn belongs(warm: &Iterate, program: &impl Nlp) -> bool {
-    let size = program.size();
-    warm.x.len() == size.variables && warm.has_multipliers(size.constraints)
 }

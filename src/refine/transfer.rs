@@ -48,20 +48,6 @@ impl<'a> Duals<'a> {
         }
     }
 
-    /// The two points around `fraction` and how far it is from the first to the second.
-    fn around(&self, fraction: f64) -> (usize, usize, f64) {
-        let last = self.times.len() - 1;
-        let right = self.times.partition_point(|&t| t < fraction).min(last);
-        let left = right.saturating_sub(1);
-        let gap = self.times[right] - self.times[left];
-        let share = if gap > 0.0 {
-            (fraction - self.times[left]) / gap
-        } else {
-            1.0
-        };
-        (left, right, share.clamp(0.0, 1.0))
-    }
-
     /// A starting iterate on another mesh: `x` with the multipliers read there.
     pub fn on(&self, mesh: &Mesh, layout: &Layout, x: Vec<f64>) -> Iterate {
         let old = self.layout;
@@ -75,7 +61,7 @@ impl<'a> Duals<'a> {
         let mut fractions = mesh.node_fractions();
         fractions.pop();
         for (k, (&fraction, weight)) in fractions.iter().zip(weights(mesh)).enumerate() {
-            let (a, b, share) = self.around(fraction);
+            let (a, b, share) = around(&self.times, fraction);
             let mix = |va: f64, vb: f64| (1.0 - share) * va + share * vb;
             let (wa, wb) = (self.weights[a], self.weights[b]);
             for i in 0..layout.states {
@@ -86,7 +72,7 @@ impl<'a> Duals<'a> {
                         l[old.defect(b, i)] / wb.defect,
                     );
             }
-            for p in 0..layout.path {
+            for p in 0..Self::common(layout.path, old.path) {
                 let l = &from.multipliers;
                 to.multipliers[layout.path(k, p)] = weight.density
                     * mix(
@@ -108,36 +94,84 @@ impl<'a> Duals<'a> {
         to
     }
 
+    /// Rows that can be taken over: all of them, or none where the problems have not as many.
+    fn common(new: usize, old: usize) -> usize {
+        if new == old { new } else { 0 }
+    }
+
     /// What belongs to t_f and to the problem as a whole has no weight and is copied.
     fn copy_ends(&self, layout: &Layout, to: &mut Iterate) {
         let old = self.layout;
-        let tail = layout.states + usize::from(layout.free_duration);
+        let tail = layout.states + usize::from(layout.free_duration && old.free_duration);
         for i in 0..tail {
             let (v, w) = (layout.state(layout.points, i), old.state(old.points, i));
             to.lower_multipliers[v] = self.iterate.lower_multipliers[w];
             to.upper_multipliers[v] = self.iterate.upper_multipliers[w];
         }
-        for b in 0..layout.boundary {
+        for b in 0..Self::common(layout.boundary, old.boundary) {
             to.multipliers[layout.boundary(b)] = self.iterate.multipliers[old.boundary(b)];
         }
     }
 }
 
-/// The trajectory on `mesh`, its controls kept within the values they had around there.
+/// Layout of the programme that multipliers saved for another problem on the same mesh belong to:
+/// states and controls are those of `layout`, path and boundary rows follow from the lengths.
 ///
-/// High-degree polynomials overshoot at the ends of segments; a start outside the bounds would be
-/// pushed back by the solver and lose more than this.
+/// `None` where no layout has these lengths.
+pub(super) fn saved_layout(saved: &Iterate, layout: &Layout) -> Option<Layout> {
+    let points = layout.points;
+    let rows = saved.multipliers.len();
+    let fixed = Layout {
+        free_duration: false,
+        ..*layout
+    };
+    let extra = saved.x.len().checked_sub(fixed.variables())?;
+    // The same boundary rows where that is possible, otherwise as few as can be.
+    let boundary = match rows.checked_sub(layout.boundary) {
+        Some(rest) if rest % points == 0 => layout.boundary,
+        _ => rows % points,
+    };
+    let path = ((rows - boundary) / points).checked_sub(layout.states)?;
+    let old = Layout {
+        path,
+        boundary,
+        free_duration: extra == 1,
+        ..*layout
+    };
+    (extra <= 1 && saved.has_multipliers(old.rows())).then_some(old)
+}
+
+/// The trajectory on `mesh`: states by their polynomials, controls linearly between points.
+///
+/// Controls jump where they meet a limit; polynomials through them ring there and would start the
+/// solver outside the limits.
 pub(super) fn resample(trajectory: &Discretization, mesh: Mesh) -> Discretization {
+    let mut times = trajectory.mesh.node_fractions();
+    times.pop();
     let mut sampled = trajectory.resample(mesh);
+    let fractions = sampled.mesh.node_fractions();
     let width = trajectory.controls;
-    for j in 0..width {
-        let old = || trajectory.u.iter().skip(j).step_by(width).copied();
-        let (low, high) = old().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
-            (l.min(v), h.max(v))
-        });
-        for value in sampled.u.iter_mut().skip(j).step_by(width) {
-            *value = value.clamp(low, high);
+    for (k, &fraction) in fractions[..sampled.mesh.points()].iter().enumerate() {
+        let (a, b, share) = around(&times, fraction);
+        let row = &mut sampled.u[k * width..(k + 1) * width];
+        let ends = trajectory.control(a).iter().zip(trajectory.control(b));
+        for (value, (a, b)) in row.iter_mut().zip(ends) {
+            *value = (1.0 - share) * a + share * b;
         }
     }
     sampled
+}
+
+/// The two of `times` around `fraction` and how far it is from the first to the second.
+fn around(times: &[f64], fraction: f64) -> (usize, usize, f64) {
+    let last = times.len() - 1;
+    let right = times.partition_point(|&t| t < fraction).min(last);
+    let left = right.saturating_sub(1);
+    let gap = times[right] - times[left];
+    let share = if gap > 0.0 {
+        (fraction - times[left]) / gap
+    } else {
+        1.0
+    };
+    (left, right, share.clamp(0.0, 1.0))
 }

@@ -6,17 +6,20 @@ use crate::nlp::{Nlp, OptionValue, Settings};
 use ipopt_sys::hsl;
 use std::ffi::CString;
 
-/// Largest distance from its bounds a warm start is pushed to: Ipopt's own default.
-const LARGEST_PUSH: f64 = 1e-3;
+/// Distances from its bounds a warm start is pushed to: the barrier parameter within these limits,
+/// the upper being Ipopt's own default.
+const PUSH: [f64; 2] = [1e-6, 1e-3];
 
-/// How near to its bounds, and how near to zero its multipliers, a warm start may begin.
-const PUSHES: [&str; 5] = [
+/// How near to its bounds a warm start may begin.
+const PUSHES: [&str; 4] = [
     "warm_start_bound_push",
     "warm_start_bound_frac",
     "warm_start_slack_bound_push",
     "warm_start_slack_bound_frac",
-    "warm_start_mult_bound_push",
 ];
+
+/// Largest value below which no multiplier of a bound may begin.
+const LARGEST_MULTIPLIER_PUSH: f64 = 1e-9;
 
 /// The linear solver a solve with these settings uses, in lower case as Ipopt compares names.
 pub(super) fn linear_solver(settings: &Settings) -> String {
@@ -74,11 +77,12 @@ pub(super) fn apply<N: Nlp + ?Sized>(
     if let Some(barrier) = settings.warm_start {
         set("warm_start_init_point", text("yes"))?;
         set("mu_init", OptionValue::Real(barrier))?;
-        // On the central path slack times multiplier is the barrier parameter, so neither need
-        // begin below it. Ipopt's default would push every active bound 1e-3 inside.
+        // Ipopt's default would push every active bound 1e-3 inside, and every multiplier to 1e-3.
         for name in PUSHES {
-            set(name, OptionValue::Real(barrier.min(LARGEST_PUSH)))?;
+            set(name, OptionValue::Real(barrier.clamp(PUSH[0], PUSH[1])))?;
         }
+        let least = barrier.min(LARGEST_MULTIPLIER_PUSH);
+        set("warm_start_mult_bound_push", OptionValue::Real(least))?;
     }
     settings
         .options
