@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 oracle bench lint doc urdf-real demo fresh table2 clean
+.PHONY: help build test test-ipopt-3.14 oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -17,7 +17,13 @@ test-ipopt-3.14: ## run the tests against a newer Ipopt, 3.14
 oracle: ## hold plans and golden values against Pinocchio, SPART and MuJoCo
 	scripts/oracle.sh
 
-bench: ## run the benchmarks
+bench: ## time the program against CasADi, yapss, maptor and mpopt, one table of ratios
+	scripts/bench.sh
+
+bench-quick: ## the same with fewer runs and without the slowest peer
+	scripts/bench.sh --quick
+
+bench-parts: ## time dynamics, derivatives and solves apart, with scaling exponents
 	cargo bench --locked
 
 lint: ## check the formatting and run clippy, warnings being errors

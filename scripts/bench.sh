@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Times the program against CasADi, yapss, maptor and mpopt from PyPI on the same problems.
+#
+# They go to target/bench/venv, which a second run uses again; the tables to out/bench/bench.{md,json}.
+#
+#     scripts/bench.sh            everything, about ten minutes
+#     scripts/bench.sh --quick    fewer runs, without maptor: about two
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+. scripts/install.sh
+
+home=target/bench
+requirements=benches/peers/requirements.txt
+
+case ${1-} in
+  '' | --quick) ;;
+  *) die "usage: scripts/bench.sh [--quick]" ;;
+esac
+
+if ! cmp -s "$requirements" "$home/installed.txt"; then
+  python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || die "needs Python 3.11 or newer"
+  rm -rf "$home/venv"
+  mkdir -p "$home"
+  python3 -m venv "$home/venv" || die "python3 cannot make a virtual environment: apt-get install python3-venv"
+  pip=("$home/venv/bin/pip" --disable-pip-version-check install --quiet)
+  "${pip[@]}" -r "$requirements"
+  # It asks for a numpy that has no wheels any more, and works with the one above.
+  "${pip[@]}" --no-deps mpopt==0.2.2
+  # Last, because it says that all the rest is there.
+  cp "$requirements" "$home/installed.txt"
+fi
+
+cargo build --release --locked --bin ffsm-ipopt
+program=$(cargo metadata --format-version 1 --no-deps --locked |
+  python3 -c 'import json, sys; print(json.load(sys.stdin)["target_directory"])')/release/ffsm-ipopt
+MPLBACKEND=Agg PYTHONDONTWRITEBYTECODE=1 "$home/venv/bin/python" -W ignore \
+  benches/peers/bench.py "$program" out/bench "$@"
