@@ -8,9 +8,9 @@ use crate::ocp::Ocp;
 use crate::transcription::{Discretization, Layout, Patterns, Transcription};
 use std::time::Instant;
 
-/// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: below
-/// it, so that the first barrier problem is the last.
-const REFINED_BARRIER: f64 = 0.5;
+/// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
+/// below it that the first barrier problem is the last, and costs are as exact as from a cold start.
+const REFINED_BARRIER: f64 = 0.1;
 
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
