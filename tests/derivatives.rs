@@ -6,9 +6,10 @@ mod trees;
 
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
+use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::dynamics::{Model, Placement};
 use ffsm_ipopt::nlp::Nlp;
-use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, Interval, Ocp, Point, Quantity};
+use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, Interval, LimitGroup, Ocp, Point, Quantity};
 use ffsm_ipopt::planner::{
     EndEffectorGoal, FreeFloating, GoalFrame, KeepOut, Obstacle, Problem, Sphere,
 };
@@ -293,6 +294,17 @@ fn loaded(robot: Model) -> Problem {
     problem
 }
 
+/// The same with the attitude described by `attitude`, its limits at work too.
+fn described(mut problem: Problem, attitude: SpatialAttitude) -> Problem {
+    problem.set_attitude(attitude);
+    problem.cost.final_base_attitude = vec![1.3];
+    problem.cost.base_rate = vec![0.6, 0.5, 0.4];
+    problem.limits.base_rate = vec![Interval::symmetric(0.6); 3];
+    problem.limits.base_attitude = vec![Interval::symmetric(0.9)];
+    problem.limits.final_base_attitude = vec![Interval::symmetric(0.4)];
+    problem
+}
+
 fn check_problem(problem: &Problem, mesh: Mesh) {
     problem.validate().unwrap();
     match FreeFloating::planar(problem) {
@@ -436,6 +448,28 @@ fn a_tree_with_a_sliding_joint() {
 #[test]
 fn seven_joints_in_space() {
     check_problem(&loaded(trees::chain(7, 5)), Mesh::uniform(1, 2).unwrap());
+}
+
+#[test]
+fn attitude_by_quaternion_and_by_rodrigues_parameters() {
+    for attitude in [SpatialAttitude::Quaternion, SpatialAttitude::Mrp] {
+        let arm = described(loaded(trees::chain(3, 4)), attitude);
+        check_problem(&arm, Mesh::uniform(1, 2).unwrap());
+        let mut tumbling = with_goal(arm, GoalFrame::Start);
+        tumbling.task.initial_momentum.angular = vec![0.2, -0.3, 0.4];
+        tumbling.limits.final_base_attitude = vec![Interval::symmetric(1.2)];
+        check_problem(&tumbling, Mesh::uniform(1, 2).unwrap());
+        // The limits on the rotation angle give way as one.
+        let system = FreeFloating::spatial(&tumbling);
+        let groups = system.limit_groups();
+        let turn = |g: &&LimitGroup| g.name == "base rotation angle";
+        let turn: Vec<_> = groups.iter().filter(turn).cloned().collect();
+        assert_eq!((turn.len(), turn[0].members.len()), (1, 3), "{turn:?}");
+        check(
+            &Elastic::new(&system, turn, 1e-3),
+            Mesh::uniform(1, 1).unwrap(),
+        );
+    }
 }
 
 #[test]

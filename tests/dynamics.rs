@@ -83,7 +83,11 @@ fn reduced_dynamics_are_the_schur_complement_of_the_full_ones() {
             // The base's attitude and place must not matter.
             let mut base = BaseMotion::placed(
                 trees::vector(rng),
-                orientation(&model, &trees::values(rng, 3, 1.2)),
+                orientation(
+                    &model,
+                    SpatialAttitude::RollPitchYaw,
+                    &trees::values(rng, 3, 1.2),
+                ),
             );
             bodies.update(&model, &base, &q, &dq);
             full.update(&model, &bodies, &dq).unwrap();
@@ -133,7 +137,11 @@ fn the_full_equations_are_solved() {
         let mut full = MassMatrix::new(&model);
         let mut base = BaseMotion::placed(
             trees::vector(rng),
-            orientation(&model, &trees::values(rng, 3, 1.2)),
+            orientation(
+                &model,
+                SpatialAttitude::RollPitchYaw,
+                &trees::values(rng, 3, 1.2),
+            ),
         );
         bodies.update(&model, &base, &q, &dq);
         full.update(&model, &bodies, &dq).unwrap();
@@ -366,19 +374,19 @@ fn the_straight_path_of_table_1_moves_the_base_as_other_tools_say() {
 fn attitude_rates_are_those_of_the_orientation() {
     // R(η + η̇ dt) − R(η) against ω, by dual numbers on the axes of the base.
     let rng = &mut Rng::with_seed(11);
-    let attitude = SpatialAttitude::RollPitchYaw;
-    for _ in 0..50 {
-        let eta = trees::values(rng, 3, 1.3);
+    let attitudes = SpatialAttitude::ALL.into_iter().cycle();
+    for attitude in attitudes.take(150) {
+        let eta = trees::attitude(rng, attitude);
         let omega = trees::vector(rng);
-        let mut rates = [0.0; 3];
+        let mut rates = vec![0.0; eta.len()];
         attitude.rates(&eta, &omega, &mut rates);
-        let moving: Vec<Dual<1>> = (0..3)
+        let moving: Vec<Dual<1>> = (0..eta.len())
             .map(|i| Dual {
                 value: eta[i],
                 gradient: [rates[i]],
             })
             .collect();
-        let r = orientation(&trees::zoo(1)[0], &eta)
+        let r = orientation(&trees::zoo(1)[0], attitude, &eta)
             .to_rotation_matrix()
             .into_inner();
         for k in 0..3 {
@@ -394,5 +402,43 @@ fn attitude_rates_are_those_of_the_orientation() {
             assert!((turned.map(|c| c.value) - r * axis).norm() < 1e-14);
             assert!((turned.map(|c| c.gradient[0]) - expected).norm() < 1e-13);
         }
+    }
+}
+
+#[test]
+fn the_rotation_angle_and_the_change_of_description() {
+    let rng = &mut Rng::with_seed(12);
+    let robot = &trees::zoo(1)[0];
+    let attitudes = SpatialAttitude::ALL.into_iter().cycle();
+    for from in attitudes.take(300) {
+        let eta = trees::attitude(rng, from);
+        let turned = orientation(robot, from, &eta);
+        let shortest = turned.angle().min(2.0 * PI - turned.angle());
+        let found = from.squared_turn::<f64>(&eta).sqrt();
+        assert!(
+            (found - shortest).abs() < 1e-14,
+            "{found} instead of {shortest}"
+        );
+        for to in SpatialAttitude::ALL {
+            let other = to.of_quaternion(&from.to_quaternion(&eta), to.start());
+            assert!(orientation(robot, to, &other).angle_to(&turned) < 1e-7);
+            let back = from.of_quaternion(&to.to_quaternion(&other), &eta);
+            let gap = back.iter().zip(&eta).map(|(a, b)| (a - b).abs());
+            assert!(gap.fold(0.0, f64::max) < 1e-12, "{back:?} for {eta:?}");
+        }
+    }
+    // A full turn about one axis: roll-pitch-yaw and quaternion go on, past half a turn too.
+    for by in [SpatialAttitude::RollPitchYaw, SpatialAttitude::Quaternion] {
+        let mut eta = by.start().to_vec();
+        for k in 0..=40 {
+            let angle = f64::from(k) * PI / 20.0;
+            let roll = SpatialAttitude::RollPitchYaw.to_quaternion(&[angle, 0.0, 0.0]);
+            eta = by.of_quaternion(&roll, &eta);
+        }
+        let last = match by {
+            SpatialAttitude::RollPitchYaw => 2.0 * PI,
+            _ => -1.0,
+        };
+        assert!((eta[0] - last).abs() < 1e-12, "{eta:?}");
     }
 }

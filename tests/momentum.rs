@@ -53,7 +53,7 @@ fn base_motion<Sp: Space>(
 /// `dynamics` to base axes.
 fn check(
     model: &Model,
-    eta: &[f64],
+    (attitude, eta): (SpatialAttitude, &[f64]),
     basis: Matrix3<f64>,
     motion: (Vec<Rate>, Vec<f64>),
     q: &[f64],
@@ -73,7 +73,7 @@ fn check(
     };
     let mut base = BaseMotion::placed(
         in_space(&|component| component.value),
-        orientation(model, eta),
+        orientation(model, attitude, eta),
     );
     base.velocity = in_space(&|component| component.gradient[0]);
     base.angular = base.rotation * basis * omega;
@@ -121,11 +121,19 @@ fn check(
 fn check_in_space(model: &Model, rng: &mut Rng) {
     let tree = Tree::spatial(model);
     let n = model.joint_count();
-    for _ in 0..50 {
+    let attitudes = SpatialAttitude::ALL.into_iter().cycle();
+    for attitude in attitudes.take(60) {
         let (q, dq) = (trees::values(rng, n, 3.0), trees::values(rng, n, 2.0));
-        let eta = trees::values(rng, 3, 1.3);
-        let motion = base_motion(&tree, (SpatialAttitude::RollPitchYaw, &eta), &q, &dq);
-        check(model, &eta, Matrix3::identity(), motion, &q, &dq);
+        let eta = trees::attitude(rng, attitude);
+        let motion = base_motion(&tree, (attitude, &eta), &q, &dq);
+        check(
+            model,
+            (attitude, &eta),
+            Matrix3::identity(),
+            motion,
+            &q,
+            &dq,
+        );
     }
 }
 
@@ -137,7 +145,14 @@ fn check_in_plane(model: &Model, rng: &mut Rng) {
         let (q, dq) = (trees::values(rng, n, 3.0), trees::values(rng, n, 2.0));
         let eta = trees::values(rng, 1, 3.0);
         let motion = base_motion(&tree, (PlanarAngle, &eta), &q, &dq);
-        check(model, &eta, basis, motion, &q, &dq);
+        check(
+            model,
+            (SpatialAttitude::default(), &eta),
+            basis,
+            motion,
+            &q,
+            &dq,
+        );
     }
 }
 

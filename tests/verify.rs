@@ -6,7 +6,7 @@ mod trees;
 
 use fastrand::Rng;
 use ffsm_ipopt::collocation::Mesh;
-use ffsm_ipopt::dynamics::attitude::Attitude;
+use ffsm_ipopt::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
 use ffsm_ipopt::dynamics::space::Space;
 use ffsm_ipopt::dynamics::{Data, Model, Tree};
 use ffsm_ipopt::nalgebra::Vector3;
@@ -46,8 +46,13 @@ impl Quintic {
 }
 
 /// The plan that goes with the path, by the dynamics that are to be checked.
-fn plan<Sp: Space>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretization {
-    let (n, attitude) = (tree.joint_count(), Sp::Attitude::BY_ANGLES);
+fn plan<Sp: Space>(
+    tree: &Tree<Sp>,
+    attitude: Sp::Attitude,
+    path: &Quintic,
+    mesh: Mesh,
+) -> Discretization {
+    let n = tree.joint_count();
     let angles = attitude.count();
     let mut data = Data::<Sp, f64>::new(tree);
     let rate = |fraction: f64, eta: &[f64], data: &mut Data<Sp, f64>| {
@@ -59,7 +64,7 @@ fn plan<Sp: Space>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretizatio
         attitude.rates(eta, &data.base_rate, &mut rates);
         rates
     };
-    let mut eta = vec![0.0; angles];
+    let mut eta = attitude.start().to_vec();
     let mut reached = 0.0;
     Discretization::sample(mesh, DURATION, angles + 2 * n, n, |fraction, x, u| {
         // Classical Runge-Kutta steps from node to node, fine enough for rounding to count.
@@ -102,20 +107,25 @@ fn plan<Sp: Space>(tree: &Tree<Sp>, path: &Quintic, mesh: Mesh) -> Discretizatio
     })
 }
 
-fn case(model: Model, from: Vec<f64>, to: Vec<f64>, mesh: Mesh) -> (Problem, Discretization) {
+fn case(
+    model: Model,
+    attitude: SpatialAttitude,
+    [from, to]: [Vec<f64>; 2],
+    mesh: Mesh,
+) -> (Problem, Discretization) {
     let path = Quintic { from, to };
     let plan = match Tree::planar(&model) {
-        Some(tree) => plan(&tree, &path, mesh),
-        None => plan(&Tree::spatial(&model), &path, mesh),
+        Some(tree) => plan(&tree, PlanarAngle, &path, mesh),
+        None => plan(&Tree::spatial(&model), attitude, &path, mesh),
     };
-    (
-        Problem::new("test", model, DURATION, &path.from, &path.to),
-        plan,
-    )
+    let mut problem = Problem::new("test", model, DURATION, &path.from, &path.to);
+    problem.set_attitude(attitude);
+    (problem, plan)
 }
 
 fn two_link_plan(mesh: Mesh) -> (Problem, Discretization) {
-    case(two_link(), vec![0.0, 0.0], vec![PI / 6.0, PI / 3.0], mesh)
+    let ends = [vec![0.0, 0.0], vec![PI / 6.0, PI / 3.0]];
+    case(two_link(), SpatialAttitude::default(), ends, mesh)
 }
 
 fn assert_exact(name: &str, found: &Verification) {
@@ -157,9 +167,14 @@ fn an_exact_plan_shows_no_drift() {
     robots.push(two_link().in_space());
     for model in robots {
         let n = model.joint_count();
-        let (from, to) = (trees::values(rng, n, 0.6), trees::values(rng, n, 0.6));
-        let (problem, plan) = case(model, from, to, mesh());
-        assert_exact(problem.robot.name(), &verify(&problem, &plan).unwrap());
+        let ends = [trees::values(rng, n, 0.6), trees::values(rng, n, 0.6)];
+        for attitude in SpatialAttitude::ALL {
+            let (problem, plan) = case(model.clone(), attitude, ends.clone(), mesh());
+            assert_exact(problem.robot.name(), &verify(&problem, &plan).unwrap());
+            if problem.robot.plane().is_some() {
+                break;
+            }
+        }
     }
 }
 

@@ -5,10 +5,11 @@ use super::show::{Quantity, by_name, rounded};
 use super::{Outcome, terminal};
 use crate::config::{Overrides, ProblemFile};
 use crate::dynamics::JointKind;
+use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::ocp::Interval;
 use crate::planner::{EndEffectorGoal, GoalFrame, Problem, straight_line};
 use crate::refine::Method;
-use crate::report::Lines;
+use crate::report::{Lines, rotation};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -46,6 +47,7 @@ fn robot(lines: &mut Lines, problem: &Problem, path: &str) {
     let robot = &problem.robot;
     let n = robot.joint_count();
     let (angles, lengths) = Problem::base_sizes(robot);
+    let (parameters, _) = problem.attitude_sizes();
     lines.add("problem", &problem.name);
     lines.add("robot", format!("{}, from {path}", robot.name()));
     let bodies: Vec<String> = std::iter::once(robot.base())
@@ -54,9 +56,13 @@ fn robot(lines: &mut Lines, problem: &Problem, path: &str) {
         .collect();
     lines.add("bodies", format!("{}: {}", bodies.len(), bodies.join(", ")));
     lines.add("total mass", format!("{} kg", rounded(robot.total_mass())));
-    let motion = match robot.plane() {
-        Some(_) => "planar; the base attitude is one angle",
-        None => "spatial; the base attitude is roll, pitch, yaw",
+    let motion = match (robot.plane(), problem.attitude) {
+        (Some(_), _) => "planar; the base attitude is one angle",
+        (None, SpatialAttitude::RollPitchYaw) => "spatial; the base attitude is roll, pitch, yaw",
+        (None, SpatialAttitude::Quaternion) => "spatial; the base attitude is a unit quaternion",
+        (None, SpatialAttitude::Mrp) => {
+            "spatial; the base attitude is modified Rodrigues parameters"
+        }
     };
     lines.add("motion", motion);
     lines.add(
@@ -70,8 +76,8 @@ fn robot(lines: &mut Lines, problem: &Problem, path: &str) {
     lines.add(
         "states",
         format!(
-            "{}: {angles} base attitude, {n} joint positions, {n} joint rates",
-            angles + 2 * n
+            "{}: {parameters} base attitude, {n} joint positions, {n} joint rates",
+            parameters + 2 * n
         ),
     );
     lines.add("controls", format!("{n}: u = H⁻¹τ"));
@@ -182,35 +188,50 @@ fn limits(lines: &mut Lines, problem: &Problem) {
             .collect();
         lines.add("  kept apart", pairs.join(", "));
     }
-    let angles = angle_names(problem);
-    for (label, bounds, quantity) in [
+    let (angles, axes) = base_names(problem);
+    for (label, names, bounds, quantity) in [
         (
             "base attitude",
+            &angles,
             &limits.base_attitude,
             Quantity::Position as Of,
         ),
         (
             "final attitude",
+            &angles,
             &limits.final_base_attitude,
             Quantity::Position,
         ),
-        ("base rate", &limits.base_rate, Quantity::Rate),
+        ("base rate", &axes, &limits.base_rate, Quantity::Rate),
     ] {
         let shown: Vec<String> = bounds
             .iter()
-            .map(|bound| quantity(JointKind::Revolute).show_interval(bound))
+            .map(|bound| {
+                let shown = quantity(JointKind::Revolute).show_interval(bound);
+                match shown.strip_prefix('±') {
+                    // A rotation angle has no sign.
+                    Some(bound) if names[0] == ROTATION => format!("turned by at most {bound}"),
+                    _ => shown,
+                }
+            })
             .collect();
-        lines.add(&format!("  {label}"), by_name(&angles, &shown));
+        lines.add(&format!("  {label}"), by_name(names, &shown));
     }
 }
 
-fn angle_names(problem: &Problem) -> Vec<String> {
-    let names: &[&str] = if problem.robot.plane().is_some() {
-        &["angle"]
-    } else {
-        &["roll", "pitch", "yaw"]
+/// What a bound on the attitude is about where there are no angles.
+const ROTATION: &str = "rotation angle";
+
+/// What limits and weights on the base attitude are about, and those on its rate.
+fn base_names(problem: &Problem) -> (Vec<String>, Vec<String>) {
+    let angles: &[&str] = &["roll", "pitch", "yaw"];
+    let (attitude, rate) = match (problem.robot.plane(), problem.attitude.is_angles()) {
+        (Some(_), _) => (&["angle"][..], &["angle"][..]),
+        (None, true) => (angles, angles),
+        (None, false) => (&[ROTATION][..], &["x", "y", "z"][..]),
     };
-    names.iter().map(|name| name.to_string()).collect()
+    let owned = |names: &[&str]| names.iter().map(|name| name.to_string()).collect();
+    (owned(attitude), owned(rate))
 }
 
 fn cost(lines: &mut Lines, problem: &Problem) {
@@ -221,16 +242,22 @@ fn cost(lines: &mut Lines, problem: &Problem) {
         .iter()
         .map(|joint| joint.name.clone())
         .collect();
-    let angles = angle_names(problem);
+    let (angles, axes) = base_names(problem);
+    let turned = angles[0] == ROTATION;
+    let (attitude, rate) = if turned {
+        ("φ(t_f)²", "∫‖ω‖²")
+    } else {
+        ("‖η(t_f)‖²", "∫‖η̇‖²")
+    };
     let lengths = ["x", "y", "z"].map(String::from);
     let mut terms: Vec<String> = [
-        ("‖η(t_f)‖²", &cost.final_base_attitude, &angles[..]),
+        (attitude, &cost.final_base_attitude, &angles[..]),
         (
             "‖Δζ(t_f)‖²",
             &cost.final_base_position,
             &lengths[..cost.final_base_position.len()],
         ),
-        ("∫‖η̇‖²", &cost.base_rate, &angles),
+        (rate, &cost.base_rate, &axes),
         ("∫‖θ̇‖²", &cost.joint_rate, &joints),
         ("∫‖u‖²", &cost.control, &joints),
         ("∫‖τ‖²", &cost.torque, &joints),
@@ -246,7 +273,8 @@ fn cost(lines: &mut Lines, problem: &Problem) {
     })
     .collect();
     if cost.rate_matrix.is_some() {
-        terms.push("∫[η̇, θ̇]ᵀΛ[η̇, θ̇] with the full matrix".into());
+        let rate = if turned { "ω" } else { "η̇" };
+        terms.push(format!("∫[{rate}, θ̇]ᵀΛ[{rate}, θ̇] with the full matrix"));
     }
     lines.add(
         "cost J",
@@ -292,9 +320,12 @@ fn straight(problem: &Problem) -> String {
     } else {
         ""
     };
+    let attitude = match problem.robot.plane() {
+        None if !problem.attitude.is_angles() => rotation(problem.attitude, &found.base_attitude),
+        _ => list(&found.base_attitude, 1f64.to_degrees(), 5) + "°",
+    };
     format!(
-        "straight-line base motion{to}: {}°, {} cm",
-        list(&found.base_attitude, 1f64.to_degrees(), 5),
+        "straight-line base motion{to}: {attitude}, {} cm",
         list(&found.base_displacement, 100.0, 6)
     )
 }

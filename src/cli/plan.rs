@@ -79,7 +79,9 @@ impl Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let file = ProblemFile::load(&arguments.problem, &arguments.overrides()?)?;
     let warm_start = arguments.warm_start.as_deref();
-    let start = warm_start.map(report::read_warm_start).transpose()?;
+    let start = warm_start
+        .map(|path| report::read_warm_start(path, &file.problem))
+        .transpose()?;
     let default = || Path::new("out").join(&file.problem.name);
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
 

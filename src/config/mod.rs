@@ -7,6 +7,7 @@
 //! expected. docs/problem-file.md, docs/robot-file.md and docs/platform-file.md describe the
 //! formats.
 
+mod base;
 mod document;
 mod error;
 mod files;

@@ -5,7 +5,7 @@ use super::files::Files;
 use super::item::{Item, Section};
 use super::robot::{self, Robot, RobotFile};
 use super::values::Components;
-use super::{ConfigError, Overrides, Place, inertia, tables};
+use super::{ConfigError, Overrides, Place, base, tables};
 use crate::planner::{Problem, ProblemError};
 use std::path::Path;
 
@@ -76,9 +76,9 @@ impl ProblemFile {
         })?;
         let mut document = Node::parse(&source.as_str().into(), &text)?;
         overrides.apply(&mut document)?;
-        let (problem, robot) = read(&document, path, files)?;
+        let (problem, robot, note) = read(&document, path, files)?;
         let file = Self {
-            notes: robot.notes(&problem),
+            notes: robot.notes(&problem).into_iter().chain(note).collect(),
             problem,
             path: source,
             text,
@@ -137,7 +137,12 @@ impl ProblemFile {
     }
 }
 
-fn read(document: &Node, path: &Path, files: Files<'_>) -> Result<(Problem, Robot), ConfigError> {
+/// The problem, its robot, and what a user should know of the rest.
+fn read(
+    document: &Node,
+    path: &Path,
+    files: Files<'_>,
+) -> Result<(Problem, Robot, Option<String>), ConfigError> {
     let root = Item::root(document).section(&[
         "schema", "name", "robot", "base", "task", "limits", "cost", "mesh", "solver",
     ])?;
@@ -146,9 +151,10 @@ fn read(document: &Node, path: &Path, files: Files<'_>) -> Result<(Problem, Robo
     let folder = path.parent().unwrap_or(Path::new(""));
     let expected = "the path of a robot file, relative to this one";
     let mut robot = robot::read(root.require("robot", expected)?, folder, &files)?;
-    if let Some(item) = root.get("base") {
-        robot.attach(&inertia::read(&item.section(&["mass", "com", "inertia"])?)?);
-    }
+    let attitude = match root.get("base") {
+        Some(item) => base::read(item, &mut robot)?,
+        None => None,
+    };
     let model = robot.model()?;
 
     let (angles, lengths) = Problem::base_sizes(&model);
@@ -160,6 +166,7 @@ fn read(document: &Node, path: &Path, files: Files<'_>) -> Result<(Problem, Robo
     let joints = Components {
         what: "joint",
         names,
+        single: None,
     };
     let angles = Components::angles(angles);
     let lengths = Components::lengths(lengths);
@@ -168,12 +175,23 @@ fn read(document: &Node, path: &Path, files: Files<'_>) -> Result<(Problem, Robo
     let task = tables::task(root.require("task", expected)?, &joints, &angles, &lengths)?;
     let mut problem = Problem::new(&name, model, task.duration.lower, &[], &[]);
     problem.task = task;
+    problem.set_attitude(attitude.unwrap_or_default());
+    let whole = problem.attitude_sizes().1 < angles.names.len();
+    let base = tables::BaseComponents {
+        attitude: if whole {
+            Components::rotation_angle()
+        } else {
+            angles.clone()
+        },
+        rate: if whole { Components::axes() } else { angles },
+        position: lengths,
+    };
     if let Some(item) = root.get("limits") {
         let robot = problem.robot.clone();
-        tables::limits(item, &mut problem.limits, &robot, &joints, &angles)?;
+        tables::limits(item, &mut problem.limits, &robot, &joints, &base)?;
     }
     if let Some(item) = root.get("cost") {
-        tables::cost(item, &mut problem.cost, &joints, &angles, &lengths)?;
+        tables::cost(item, &mut problem.cost, &joints, &base)?;
     }
     if let Some(item) = root.get("mesh") {
         tables::mesh(item, &mut problem.mesh)?;
@@ -181,7 +199,15 @@ fn read(document: &Node, path: &Path, files: Files<'_>) -> Result<(Problem, Robo
     if let Some(item) = root.get("solver") {
         tables::solver(item, &mut problem.solver)?;
     }
-    Ok((problem, robot))
+    let note = attitude
+        .filter(|_| problem.robot.plane().is_some())
+        .map(|_| {
+            let place = document.locate("base.attitude");
+            format!(
+                "{place}: base.attitude: left aside, the robot is planar and its attitude one angle"
+            )
+        });
+    Ok((problem, robot, note))
 }
 
 /// The name, which names the output folder as well; that of the file unless given.

@@ -89,13 +89,20 @@ fn duration(item: &Item<'_>) -> Result<Interval, ConfigError> {
     Ok(Interval::new(min, max))
 }
 
+/// What limits and costs on the base have one component of.
+pub(super) struct BaseComponents {
+    pub attitude: Components,
+    pub rate: Components,
+    pub position: Components,
+}
+
 /// `[limits]`.
 pub(super) fn limits(
     item: &Item<'_>,
     limits: &mut Limits,
     robot: &Model,
     joints: &Components,
-    angles: &Components,
+    base: &BaseComponents,
 ) -> Result<(), ConfigError> {
     const KEEP_OUT: &str = "keep_out";
     let mut keys = [
@@ -103,12 +110,12 @@ pub(super) fn limits(
         ("joint_velocity", &mut limits.joint_velocity, joints),
         ("control", &mut limits.control, joints),
         ("torque", &mut limits.torque, joints),
-        ("base_attitude", &mut limits.base_attitude, angles),
-        ("base_rate", &mut limits.base_rate, angles),
+        ("base_attitude", &mut limits.base_attitude, &base.attitude),
+        ("base_rate", &mut limits.base_rate, &base.rate),
         (
             "final_base_attitude",
             &mut limits.final_base_attitude,
-            angles,
+            &base.attitude,
         ),
     ];
     let mut known = keys.each_ref().map(|(name, ..)| *name).to_vec();
@@ -130,19 +137,22 @@ pub(super) fn cost(
     item: &Item<'_>,
     cost: &mut Cost,
     joints: &Components,
-    angles: &Components,
-    lengths: &Components,
+    base: &BaseComponents,
 ) -> Result<(), ConfigError> {
     const MATRIX: &str = "rate_matrix";
     const DURATION_WEIGHT: &str = "duration";
     let mut keys = [
-        ("final_base_attitude", &mut cost.final_base_attitude, angles),
+        (
+            "final_base_attitude",
+            &mut cost.final_base_attitude,
+            &base.attitude,
+        ),
         (
             "final_base_position",
             &mut cost.final_base_position,
-            lengths,
+            &base.position,
         ),
-        ("base_rate", &mut cost.base_rate, angles),
+        ("base_rate", &mut cost.base_rate, &base.rate),
         ("joint_rate", &mut cost.joint_rate, joints),
         ("control", &mut cost.control, joints),
         ("torque", &mut cost.torque, joints),

@@ -11,6 +11,8 @@ pub(super) struct Components {
     pub what: &'static str,
     /// Names, in order.
     pub names: Vec<String>,
+    /// Where nothing but one number will do: what was expected.
+    pub single: Option<&'static str>,
 }
 
 impl Components {
@@ -24,6 +26,27 @@ impl Components {
         Self {
             what: "base angle",
             names: names.iter().map(|name| name.to_string()).collect(),
+            single: None,
+        }
+    }
+
+    /// The rotation angle of the base, where its attitude is not described by angles.
+    pub(super) fn rotation_angle() -> Self {
+        Self {
+            what: "base rotation angle",
+            names: vec!["angle".into()],
+            single: Some(
+                "one number, for the rotation angle of the base: base.attitude has no roll, \
+                 pitch or yaw",
+            ),
+        }
+    }
+
+    /// Base axes, along which the angular velocity is taken.
+    pub(super) fn axes() -> Self {
+        Self {
+            what: "base axis",
+            ..Self::lengths(3)
         }
     }
 
@@ -36,6 +59,7 @@ impl Components {
         Self {
             what: "base length",
             names,
+            single: None,
         }
     }
 
@@ -136,6 +160,9 @@ impl Components {
         if item.as_number().is_some() {
             return Ok(vec![weight(item)?; self.len()]);
         }
+        if let Some(expected) = self.single {
+            return Err(item.unexpected(expected));
+        }
         if let Some(elements) = item.as_elements() {
             return self.elements(item, elements)?.iter().map(weight).collect();
         }
@@ -157,6 +184,9 @@ impl Components {
         let all = |bound| vec![bound; self.len()];
         if item.as_number().is_some() {
             return symmetric(item).map(all);
+        }
+        if let Some(expected) = self.single {
+            return Err(item.unexpected(expected));
         }
         let Some(elements) = item.as_elements() else {
             let entries = self.by_name(item.entries(&expected)?)?;

@@ -1,6 +1,7 @@
 //! Why a problem is infeasible: which limits cannot hold, and the smallest that can.
 
 use super::guess::{JointPath, along};
+use super::turn::{ROTATION, TurnLimits};
 use super::{Diagnosis, Event, FreeFloating, LimitFinding, PlanError, Problem};
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
@@ -293,6 +294,10 @@ fn findings<Sp: Space>(
     let end_rows = system.end_rows(trajectory);
     let mut limits = Vec::new();
     for group in groups {
+        if group.name == ROTATION {
+            limits.extend(turn_findings(problem, system, &state_rows));
+            continue;
+        }
         for &member in &group.members {
             let (key, component, bound, values) = match member {
                 Limited::State(i) => {
@@ -361,6 +366,37 @@ fn findings<Sp: Space>(
         }
     }
     limits
+}
+
+/// The bounds on the rotation angle that `states`, one row a node, exceed.
+fn turn_findings<Sp: Space>(
+    problem: &Problem,
+    system: &FreeFloating<Sp>,
+    states: &[Vec<f64>],
+) -> Vec<LimitFinding> {
+    let attitude = system.attitude();
+    let turned: Vec<f64> = states
+        .iter()
+        .map(|x| attitude.squared_turn(&x[..attitude.count()]).sqrt())
+        .collect();
+    let largest = turned.iter().copied().fold(0.0, f64::max);
+    let last = turned[turned.len() - 1];
+    let [along, at_end] = TurnLimits::bounds(problem);
+    [
+        ("limits.base_attitude", along, largest),
+        ("limits.final_base_attitude", at_end, last),
+    ]
+    .into_iter()
+    .filter(|(_, bound, reached)| reached - bound > HELD * bound.max(1e-3))
+    .map(|(key, bound, reached)| LimitFinding {
+        key: key.into(),
+        component: ROTATION.into(),
+        unit: "rad",
+        bound: Interval::new(0.0, bound),
+        excess: reached - bound,
+        smallest_bound: Interval::new(0.0, reached),
+    })
+    .collect()
 }
 
 /// `bound` widened to hold `reached`; symmetric bounds stay symmetric.
@@ -439,7 +475,9 @@ fn shown(finding: &LimitFinding, bound: &Interval) -> String {
         Some(rest) => (180.0 / std::f64::consts::PI, format!("°{rest}")),
         None => (1.0, format!(" {}", finding.unit)),
     };
-    if bound.lower == -bound.upper {
+    if finding.component == ROTATION {
+        format!("{:.2}{unit}", bound.upper * factor)
+    } else if bound.lower == -bound.upper {
         format!("±{:.2}{unit}", bound.upper * factor)
     } else {
         format!(

@@ -4,8 +4,9 @@ use super::Problem;
 use super::goal::GoalRows;
 use super::keep_out::KeepOutRow;
 use super::momentum::Drift;
+use super::turn::{ROTATION, TurnLimits};
 use crate::autodiff::Scalar;
-use crate::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
+use crate::dynamics::attitude::{Attitude, PlanarAngle};
 use crate::dynamics::space::{Planar, Space, Spatial, Vector};
 use crate::dynamics::{Data, Tree};
 use crate::ocp::{Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Point, Quantity};
@@ -14,7 +15,8 @@ use crate::transcription::Discretization;
 /// States x = [η, θ, θ̇], controls u = H⁻¹τ.
 ///
 /// The paper's state is [θ, θ̇]; the base attitude joins it because its limits (10) and its cost
-/// (14) need it. Path rows, where limited: the rates η̇, then the torques τ = Hu.
+/// (14) need it. Path rows, where limited: the rates η̇ (or ω, where η are no angles), the torques
+/// τ = Hu, the rotation angle, the pairs kept apart.
 #[derive(Debug, Clone)]
 pub struct FreeFloating<Sp: Space> {
     tree: Tree<Sp>,
@@ -27,6 +29,7 @@ pub struct FreeFloating<Sp: Space> {
     torque_cost: bool,
     goal: Option<GoalRows<Sp>>,
     drift: Drift<Sp>,
+    turn: TurnLimits,
     keep_out: Vec<KeepOutRow<Sp>>,
 }
 
@@ -42,7 +45,7 @@ impl FreeFloating<Spatial> {
     /// The spatial form of `problem`.
     pub fn spatial(problem: &Problem) -> Self {
         let tree = Tree::spatial(&problem.robot);
-        Self::new(problem, tree, SpatialAttitude::RollPitchYaw)
+        Self::new(problem, tree, problem.attitude)
     }
 }
 
@@ -58,13 +61,16 @@ impl<Sp: Space> FreeFloating<Sp> {
         let start_position = attitude.base_position(attitude.start(), &data.system_center);
         let goal = problem.task.end_effector.as_ref();
         let goal = goal.map(|goal| GoalRows::new(goal, start_position));
-        let mut formulation = formulation::<Sp>(problem, attitude, rate_rows, torque_rows);
+        let turn = TurnLimits::new::<Sp>(problem, attitude);
+        let mut formulation = formulation::<Sp>(problem, (attitude, &turn), rate_rows, torque_rows);
+        formulation.path.extend(turn.path());
         let pairs = limits.keep_out.iter();
         let keep_out: Vec<_> = pairs.map(|pair| KeepOutRow::new(pair, &tree)).collect();
         formulation
             .path
             .extend(keep_out.iter().map(KeepOutRow::quantity));
         formulation.boundary = goal.iter().flat_map(GoalRows::quantities).collect();
+        formulation.boundary.extend(turn.ends());
         // Path rows do not reach t_f, which is no collocation point.
         formulation
             .boundary
@@ -74,6 +80,7 @@ impl<Sp: Space> FreeFloating<Sp> {
             cost: problem.cost.clone(),
             start_position,
             goal,
+            turn,
             keep_out,
             drift: Drift::new(&problem.task.initial_momentum, tree.total_mass()),
             rate_rows,
@@ -113,21 +120,35 @@ impl<Sp: Space> FreeFloating<Sp> {
 
     /// Key in the problem file of the limit behind path row `p`, and the joint it is about.
     pub fn path_limit(&self, p: usize) -> (&'static str, Option<usize>) {
-        let rates = if self.rate_rows { Sp::ANGLES } else { 0 };
-        match p.checked_sub(rates) {
-            None => ("limits.base_rate", None),
-            Some(j) if self.torque_rows && j < self.joint_count() => ("limits.torque", Some(j)),
-            Some(_) => ("limits.keep_out", None),
+        let count = |given: bool, rows: usize| if given { rows } else { 0 };
+        let torques = count(self.rate_rows, Sp::ANGLES);
+        let turn = torques + count(self.torque_rows, self.joint_count());
+        if p < torques {
+            ("limits.base_rate", None)
+        } else if p < turn {
+            ("limits.torque", Some(p - torques))
+        } else if p < turn + self.turn.path().len() {
+            ("limits.base_attitude", None)
+        } else {
+            ("limits.keep_out", None)
         }
     }
 
     /// Key in the problem file of what is behind boundary row `b`.
     pub fn boundary_key(&self, b: usize) -> &'static str {
-        if b + self.keep_out.len() < self.formulation.boundary.len() {
+        let goals = self.goal_rows();
+        if b < goals {
             "task.final.end_effector"
+        } else if b < goals + self.turn.ends().len() {
+            "limits.final_base_attitude"
         } else {
             "limits.keep_out"
         }
+    }
+
+    /// Boundary rows of the end-effector goal, which come first.
+    fn goal_rows(&self) -> usize {
+        self.formulation.boundary.len() - self.turn.ends().len() - self.keep_out.len()
     }
 
     /// Values of the path rows at every collocation point of `trajectory`.
@@ -180,6 +201,8 @@ impl<Sp: Space> FreeFloating<Sp> {
                 });
             }
         };
+        let whole = !self.attitude.is_angles();
+        let mut turn = Vec::new();
         for (i, state) in states.iter().enumerate().take(self.attitude.count()) {
             let along = state.bounds;
             let at_end = self.formulation.terminal[i];
@@ -188,16 +211,26 @@ impl<Sp: Space> FreeFloating<Sp> {
             let members = members
                 .into_iter()
                 .filter(|(b, _)| !b.is_free())
-                .map(|(_, m)| m)
-                .collect();
-            push(state.name.clone(), members, &tightest);
+                .map(|(_, m)| m);
+            if whole {
+                turn.extend(members);
+            } else {
+                push(state.name.clone(), members.collect(), &tightest);
+            }
         }
+        // All that bounds the rotation angle gives way together.
+        let on_turn = |p: &usize| self.path_limit(*p).0 == "limits.base_attitude";
+        let path = 0..self.formulation.path.len();
+        turn.extend(path.filter(on_turn).map(Limited::Path));
+        let ends = (0..self.turn.ends().len()).map(|b| Limited::Boundary(self.goal_rows() + b));
+        turn.extend(ends);
+        push(ROTATION.into(), turn, &Interval::symmetric(1.0));
         for (i, row) in self
             .formulation
             .path
             .iter()
             .enumerate()
-            .filter(|(_, r)| !r.bounds.is_free())
+            .filter(|(i, r)| !r.bounds.is_free() && !on_turn(i))
         {
             let mut members = vec![Limited::Path(i)];
             // The same pair at t_f: both lists of rows end with the pairs.
@@ -216,8 +249,8 @@ impl<Sp: Space> FreeFloating<Sp> {
                 push(state.name.clone(), vec![Limited::State(i)], &state.bounds);
             }
         }
-        let goal_rows = self.formulation.boundary.len() - self.keep_out.len();
-        for (b, row) in self.formulation.boundary[..goal_rows].iter().enumerate() {
+        let goal_rows = &self.formulation.boundary[..self.goal_rows()];
+        for (b, row) in goal_rows.iter().enumerate() {
             // Allowed distances are small; a tenth of a metre or radian counts as one.
             groups.push(LimitGroup {
                 name: row.name.clone(),
@@ -247,7 +280,7 @@ impl<Sp: Space> FreeFloating<Sp> {
 
 fn formulation<Sp: Space>(
     problem: &Problem,
-    attitude: Sp::Attitude,
+    (attitude, turn): (Sp::Attitude, &TurnLimits),
     rate_rows: bool,
     torque_rows: bool,
 ) -> Formulation {
@@ -269,17 +302,22 @@ fn formulation<Sp: Space>(
             .map(Interval::fixed)
             .collect::<Vec<_>>()
     };
+    let axes = ["x", "y", "z"].iter().zip(&limits.base_rate);
+    let spin = axes.map(|(axis, b)| Quantity::new(format!("base angular velocity {axis}"), *b));
     let mut path = Vec::new();
-    if rate_rows {
+    if rate_rows && attitude.is_angles() {
         path.extend(angles(" rate", &limits.base_rate));
+    } else if rate_rows {
+        path.extend(spin);
     }
     if torque_rows {
         path.extend(joints("torque", &limits.torque));
     }
     let rest = vec![0.0; n];
+    let [along, last] = turn.parameter_bounds(problem, attitude.start());
     Formulation {
         states: [
-            angles("", &limits.base_attitude),
+            angles("", &along),
             joints("position", &limits.joint_position),
             joints("rate", &limits.joint_velocity),
         ]
@@ -294,7 +332,7 @@ fn formulation<Sp: Space>(
         ]
         .concat(),
         terminal: [
-            limits.final_base_attitude.clone(),
+            last,
             fixed(&task.final_joints)
                 .into_iter()
                 .zip(&task.free_joints)
@@ -367,17 +405,26 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
             torques(&data.mass_matrix, point.u, &mut scratch.torque);
         }
         let (rate_rows, rest) = path.split_at_mut(if self.rate_rows { Sp::ANGLES } else { 0 });
-        let (torque_rows, apart) = rest.split_at_mut(if self.torque_rows { n } else { 0 });
+        let (torque_rows, rest) = rest.split_at_mut(if self.torque_rows { n } else { 0 });
+        let (turn_rows, apart) = rest.split_at_mut(rest.len() - self.keep_out.len());
+        self.turn
+            .path_values(|| self.attitude.squared_turn(eta), turn_rows);
         for (row, pair) in apart.iter_mut().zip(&self.keep_out) {
             *row = pair.value(&self.tree, data);
         }
+        // What limits and costs on the rate are about.
+        let spin: &[S] = if self.attitude.is_angles() {
+            eta_rates
+        } else {
+            data.base_rate.components()
+        };
         if self.rate_rows {
-            rate_rows.copy_from_slice(eta_rates);
+            rate_rows.copy_from_slice(spin);
         }
         if self.torque_rows {
             torque_rows.copy_from_slice(&scratch.torque);
         }
-        self.running_cost(eta_rates, dtheta, point.u, &scratch.torque)
+        self.running_cost(spin, dtheta, point.u, &scratch.torque)
     }
 
     fn boundary<S: Scalar>(
@@ -387,7 +434,13 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
         rows: &mut [S],
     ) -> S {
         let (eta, joints) = ends.terminal.split_at(self.attitude.count());
-        let mut cost = weighted_squares(&self.cost.final_base_attitude, eta);
+        let squared_turn = || self.attitude.squared_turn(eta);
+        let weights = &self.cost.final_base_attitude;
+        let mut cost = match weights[..] {
+            _ if self.attitude.is_angles() => weighted_squares(weights, eta),
+            [weight] if weight > 0.0 => squared_turn() * weight,
+            _ => S::zero(),
+        };
         if self.cost.duration > 0.0 {
             cost += ends.duration * self.cost.duration;
         }
@@ -398,7 +451,9 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
             self.tree.kinematics(&joints[..self.joint_count()], data);
             self.tree.momentum(data);
         }
-        let (goal_rows, apart) = rows.split_at_mut(rows.len() - self.keep_out.len());
+        let (rest, apart) = rows.split_at_mut(rows.len() - self.keep_out.len());
+        let (goal_rows, turn_rows) = rest.split_at_mut(self.goal_rows());
+        self.turn.end_values(squared_turn, turn_rows);
         for (row, pair) in apart.iter_mut().zip(&self.keep_out) {
             *row = pair.value(&self.tree, data);
         }
@@ -427,9 +482,9 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
 
 impl<Sp: Space> FreeFloating<Sp> {
     /// ℒ of (14), with the weights on u and τ.
-    fn running_cost<S: Scalar>(&self, eta_rates: &[S], dtheta: &[S], u: &[S], torque: &[S]) -> S {
+    fn running_cost<S: Scalar>(&self, spin: &[S], dtheta: &[S], u: &[S], torque: &[S]) -> S {
         let cost = &self.cost;
-        let mut sum = weighted_squares(&cost.base_rate, eta_rates)
+        let mut sum = weighted_squares(&cost.base_rate, spin)
             + weighted_squares(&cost.joint_rate, dtheta)
             + weighted_squares(&cost.control, u);
         if self.torque_cost {
@@ -438,7 +493,7 @@ impl<Sp: Space> FreeFloating<Sp> {
         if let Some(matrix) = &cost.rate_matrix {
             let rate = |i: usize| {
                 if i < Sp::ANGLES {
-                    eta_rates[i]
+                    spin[i]
                 } else {
                     dtheta[i - Sp::ANGLES]
                 }

@@ -13,6 +13,7 @@ mod radau;
 mod replan;
 mod straight_line;
 mod trajectory;
+mod turn;
 
 pub use crate::refine::Start;
 pub use event::Event;

@@ -1,5 +1,6 @@
 //! What a planner returns.
 
+use crate::dynamics::attitude::SpatialAttitude;
 use crate::nlp;
 use crate::ocp::Interval;
 use crate::refine::{Method, Record};
@@ -36,11 +37,13 @@ impl Status {
 pub struct Trajectory {
     /// Times, s; the last is t_f.
     pub t: Vec<f64>,
-    /// Base attitude η, rad.
+    /// How `base_attitude` describes the orientation; `None` for the one angle of the plane.
+    pub attitude: Option<SpatialAttitude>,
+    /// Base attitude η: angles in rad, or the parameters of another description.
     pub base_attitude: Vec<Vec<f64>>,
     /// Base position ζ relative to the system's mass centre, inertial axes, m.
     pub base_position: Vec<Vec<f64>>,
-    /// Rates η̇, rad/s.
+    /// Rates η̇ of angles, or else the angular velocity in base axes, rad/s.
     pub base_rate: Vec<Vec<f64>>,
     /// Joint positions θ, rad or m.
     pub joint_position: Vec<Vec<f64>>,
@@ -55,9 +58,9 @@ pub struct Trajectory {
 /// Figures a person asks for first.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Metrics {
-    /// Largest magnitude of any base attitude angle, rad.
+    /// Largest magnitude of any base attitude angle, or else of the rotation angle, rad.
     pub max_base_attitude: f64,
-    /// Largest magnitude of any base attitude angle at t_f, rad.
+    /// The same at t_f, rad.
     pub final_base_attitude: f64,
     /// Largest distance of the base from where it started, m.
     pub max_base_displacement: f64,

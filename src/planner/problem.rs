@@ -1,6 +1,7 @@
 //! A planning problem: robot, task, limits, cost and mesh, eq. (7) to (18).
 
 use super::{EndEffectorGoal, KeepOut, Momentum, Obstacle};
+use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::{Planar, Space, Spatial};
 use crate::dynamics::{JointKind, Model};
 use crate::nlp;
@@ -38,11 +39,13 @@ pub struct Limits {
     pub control: Vec<Interval>,
     /// Joint torques, N·m or N; length n.
     pub torque: Vec<Interval>,
-    /// Base attitude along the path, rad; one an angle, eq. (10).
+    /// Base attitude along the path, rad, eq. (10): one an angle; by quaternion or modified
+    /// Rodrigues parameters one for the rotation angle from the start, symmetric.
     pub base_attitude: Vec<Interval>,
-    /// Rates of the base attitude angles, rad/s; one an angle, eq. (10).
+    /// Rates of the base attitude angles, rad/s, one an angle, eq. (10); by quaternion or modified
+    /// Rodrigues parameters the angular velocity along each base axis.
     pub base_rate: Vec<Interval>,
-    /// Base attitude at t_f, rad; one an angle.
+    /// Base attitude at t_f, rad, as along the path.
     pub final_base_attitude: Vec<Interval>,
     /// Pairs kept apart along the path.
     pub keep_out: Vec<KeepOut>,
@@ -51,11 +54,13 @@ pub struct Limits {
 /// Weights of the cost functional (14).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cost {
-    /// ‖η(t_f)‖², one weight an angle.
+    /// ‖η(t_f)‖², one weight an angle; by quaternion or modified Rodrigues parameters one weight, of
+    /// the squared rotation angle from the start.
     pub final_base_attitude: Vec<f64>,
     /// ‖ζ(t_f) − ζ(t₀)‖², one weight a length.
     pub final_base_position: Vec<f64>,
-    /// ∫‖η̇‖² dt, one weight an angle.
+    /// ∫‖η̇‖² dt, one weight an angle; by quaternion or modified Rodrigues parameters ∫‖ω‖² dt, one
+    /// a base axis.
     pub base_rate: Vec<f64>,
     /// ∫‖θ̇‖² dt, one weight a joint.
     pub joint_rate: Vec<f64>,
@@ -76,6 +81,8 @@ pub struct Problem {
     pub name: String,
     /// The robot on its base.
     pub robot: Model,
+    /// How the base attitude is described in space; in the plane it is one angle.
+    pub attitude: SpatialAttitude,
     /// What is to be done.
     pub task: Task,
     /// Limits.
@@ -101,7 +108,7 @@ pub struct ProblemError {
 }
 
 impl Problem {
-    /// Angles of the base attitude and lengths of its position for `robot`: 1 and 2 in the
+    /// Components of the base's angular velocity and of its position for `robot`: 1 and 2 in the
     /// plane, 3 and 3 in space.
     pub fn base_sizes(robot: &Model) -> (usize, usize) {
         if robot.plane().is_some() {
@@ -109,6 +116,29 @@ impl Problem {
         } else {
             (Spatial::ANGLES, Spatial::LENGTHS)
         }
+    }
+
+    /// How many parameters describe the base attitude, each a state, and how many bounds and
+    /// weights there are on it: one an angle, or one on the rotation angle.
+    pub fn attitude_sizes(&self) -> (usize, usize) {
+        match (self.robot.plane(), self.attitude.is_angles()) {
+            (Some(_), _) => (1, 1),
+            (None, true) => (3, 3),
+            (None, false) => (self.attitude.count(), 1),
+        }
+    }
+
+    /// Describes the base attitude in space by `attitude`.
+    ///
+    /// Limits and weights on attitude and rate mean something else then: they are set to none.
+    pub fn set_attitude(&mut self, attitude: SpatialAttitude) {
+        self.attitude = attitude;
+        let (turns, rates) = (self.attitude_sizes().1, Self::base_sizes(&self.robot).0);
+        self.limits.base_attitude = vec![Interval::FREE; turns];
+        self.limits.final_base_attitude = vec![Interval::FREE; turns];
+        self.limits.base_rate = vec![Interval::FREE; rates];
+        self.cost.final_base_attitude = vec![0.0; turns];
+        self.cost.base_rate = vec![0.0; rates];
     }
 
     /// A rest-to-rest task of `duration` seconds from `initial` to `goal` joint positions.
@@ -161,6 +191,7 @@ impl Problem {
             },
             mesh: refine::Settings::default(),
             solver: nlp::Settings::default(),
+            attitude: SpatialAttitude::default(),
             robot,
         }
     }
@@ -222,24 +253,25 @@ impl Problem {
             }
         }
         self.validate_goal(n, angles, lengths)?;
+        let turns = self.attitude_sizes().1;
+        let turned = if turns == angles {
+            "base angles"
+        } else {
+            "base rotation angles"
+        };
         let limits = &self.limits;
         for (key, bounds, expected, what) in [
             ("limits.joint_position", &limits.joint_position, n, "joints"),
             ("limits.joint_velocity", &limits.joint_velocity, n, "joints"),
             ("limits.control", &limits.control, n, "joints"),
             ("limits.torque", &limits.torque, n, "joints"),
-            (
-                "limits.base_attitude",
-                &limits.base_attitude,
-                angles,
-                "base angles",
-            ),
+            ("limits.base_attitude", &limits.base_attitude, turns, turned),
             ("limits.base_rate", &limits.base_rate, angles, "base angles"),
             (
                 "limits.final_base_attitude",
                 &limits.final_base_attitude,
-                angles,
-                "base angles",
+                turns,
+                turned,
             ),
         ] {
             count(key, bounds.len(), expected, what)?;
@@ -247,10 +279,23 @@ impl Problem {
                 interval(&indexed(key, i, expected), bound)?;
             }
         }
+        if turns < angles {
+            for (key, bounds) in [
+                ("limits.base_attitude", &limits.base_attitude),
+                ("limits.final_base_attitude", &limits.final_base_attitude),
+            ] {
+                let Interval { lower, upper } = bounds[0];
+                if lower != -upper {
+                    let found = format!("[{lower}, {upper}]");
+                    let expected = "a symmetric bound, the largest rotation angle";
+                    return Err(error(key, found, expected));
+                }
+            }
+        }
         for (i, bound) in limits.base_attitude.iter().enumerate() {
             if bound.violation(0.0) > 0.0 {
                 return Err(error(
-                    indexed("limits.base_attitude", i, angles),
+                    indexed("limits.base_attitude", i, turns),
                     format!("[{}, {}]", bound.lower, bound.upper),
                     "a range around 0, the attitude at the start",
                 ));
@@ -412,7 +457,7 @@ impl Problem {
             (
                 "cost.final_base_attitude",
                 &cost.final_base_attitude,
-                angles,
+                self.attitude_sizes().1,
                 "base angles",
             ),
             (

@@ -4,10 +4,10 @@ use super::guess::{JointPath, along};
 use super::replan::bend;
 use super::trajectory::{metrics, trajectory};
 use super::{
-    Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, Trajectory, diagnosis,
+    Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, Trajectory, diagnosis, turn,
 };
 use crate::collocation::MeshError;
-use crate::dynamics::attitude::Attitude;
+use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Nlp, ipopt};
 use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
@@ -233,6 +233,8 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
         [&p.limits.base_rate, &p.limits.torque].map(|b| b.iter().any(|b| !b.is_free()))
     };
     a.robot == b.robot
+        && a.attitude == b.attitude
+        && turn::rows(a) == turn::rows(b)
         && weights(a) == weights(b)
         && a.cost.rate_matrix == b.cost.rate_matrix
         && (a.cost.duration == 0.0) == (b.cost.duration == 0.0)
@@ -256,23 +258,41 @@ fn cost_of<Sp: Space>(
 
 /// Base pitch beyond which roll-pitch-yaw rates are more than ten times the base's own, rad.
 const STEEP: f64 = 1.47;
+/// Length of modified Rodrigues parameters beyond which their rates are more than ten times those
+/// of a base that has not turned; 286°.
+const LONG: f64 = 3.0;
 
-/// A word about roll-pitch-yaw where the base comes close to its singularity, ψ = ±π/2.
+/// A word about the description of the attitude where the base comes close to its singularity.
 fn near_singularity(trajectory: &Trajectory) -> Option<String> {
-    let pitch = |eta: &Vec<f64>| if eta.len() == 3 { eta[1].abs() } else { 0.0 };
-    let steepest = trajectory
-        .base_attitude
-        .iter()
-        .map(pitch)
-        .fold(0.0, f64::max);
-    (steepest > STEEP).then(|| {
-        format!(
-            "the base pitches to {:.1}°, and roll-pitch-yaw is singular at 90°: roll and yaw \
-             there are not to be relied on, nor may a failure to converge say anything about the \
-             task; keep the pitch away by limits.base_attitude, or turn the base frame",
-            steepest.to_degrees()
-        )
-    })
+    let most = |size: fn(&[f64]) -> f64| {
+        let rows = trajectory.base_attitude.iter();
+        rows.map(|eta| size(eta)).fold(0.0, f64::max)
+    };
+    match trajectory.attitude? {
+        SpatialAttitude::RollPitchYaw => {
+            let steepest = most(|eta| eta[1].abs());
+            (steepest > STEEP).then(|| {
+                format!(
+                    "the base pitches to {:.1}°, and roll-pitch-yaw is singular at 90°: roll and \
+                     yaw there are not to be relied on, nor may a failure to converge say \
+                     anything about the task; plan with base.attitude = \"quaternion\" or \"mrp\"",
+                    steepest.to_degrees()
+                )
+            })
+        }
+        SpatialAttitude::Quaternion => None,
+        SpatialAttitude::Mrp => {
+            let longest = most(|eta| eta.iter().map(|s| s * s).sum::<f64>().sqrt());
+            (longest > LONG).then(|| {
+                format!(
+                    "the base turns by {:.1}°, and modified Rodrigues parameters are singular at \
+                     360°: a failure to converge may say nothing about the task; plan with \
+                     base.attitude = \"quaternion\"",
+                    (4.0 * longest.atan()).to_degrees()
+                )
+            })
+        }
+    }
 }
 
 fn check_start<Sp: Space>(start: &Start, system: &FreeFloating<Sp>) -> Result<(), PlanError> {

@@ -10,7 +10,7 @@ use crate::dynamics::space::{Space, Vector};
 /// Independent of the speed along the path, since momentum is linear in the rates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StraightLine {
-    /// Base attitude at the end, rad.
+    /// Base attitude at the end: angles in rad, or the parameters of another description.
     pub base_attitude: Vec<f64>,
     /// Base displacement from its start, inertial axes, m.
     pub base_displacement: Vec<f64>,

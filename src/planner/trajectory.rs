@@ -22,6 +22,7 @@ pub(super) fn trajectory<Sp: Space>(
     let mut data = Data::<Sp, f64>::new(tree);
     let mut out = Trajectory {
         t: plan.times(),
+        attitude: attitude.in_space(),
         ..Trajectory::default()
     };
     for k in 0..=plan.mesh.points() {
@@ -40,8 +41,10 @@ pub(super) fn trajectory<Sp: Space>(
         tree.momentum(&mut data);
         problem.base_rate(eta, dtheta, &mut data);
         tree.mass_matrix(&mut data);
-        let mut rates = vec![0.0; attitude.count()];
-        attitude.rates(eta, &data.base_rate, &mut rates);
+        let mut rates = data.base_rate.components().to_vec();
+        if attitude.is_angles() {
+            attitude.rates(eta, &data.base_rate, &mut rates);
+        }
         let mut torque = vec![0.0; n];
         torques(&data.mass_matrix, &u, &mut torque);
         let mut position = attitude.base_position(eta, &data.system_center);
@@ -57,6 +60,18 @@ pub(super) fn trajectory<Sp: Space>(
     out
 }
 
+/// The angles that limits on the base attitude are about, rad: those of each row, or its rotation
+/// angle.
+fn turned(trajectory: &Trajectory) -> Vec<Vec<f64>> {
+    let rows = trajectory.base_attitude.iter();
+    match trajectory.attitude {
+        Some(attitude) if !attitude.is_angles() => rows
+            .map(|eta| vec![attitude.squared_turn::<f64>(eta).sqrt()])
+            .collect(),
+        _ => rows.cloned().collect(),
+    }
+}
+
 /// Figures of a trajectory.
 pub(super) fn metrics(trajectory: &Trajectory) -> Metrics {
     let peak = |rows: &[Vec<f64>]| rows.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -69,9 +84,10 @@ pub(super) fn metrics(trajectory: &Trajectory) -> Metrics {
             .sqrt()
     };
     let last = |rows: &[Vec<f64>]| rows.last().cloned().unwrap_or_default();
+    let turned = turned(trajectory);
     Metrics {
-        max_base_attitude: peak(&trajectory.base_attitude),
-        final_base_attitude: peak(&[last(&trajectory.base_attitude)]),
+        max_base_attitude: peak(&turned),
+        final_base_attitude: peak(&[last(&turned)]),
         max_base_displacement: trajectory
             .base_position
             .iter()

@@ -2,6 +2,7 @@
 
 use super::solution::*;
 use super::{Provenance, Solution};
+use crate::dynamics::attitude::SpatialAttitude;
 use crate::ocp::Interval;
 use crate::planner::{self, Plan};
 use crate::refine::Record;
@@ -57,6 +58,7 @@ fn iteration(record: &Record) -> Iteration {
 fn trajectory(planned: &planner::Trajectory) -> Trajectory {
     let planner::Trajectory {
         t,
+        attitude,
         base_attitude,
         base_position,
         base_rate,
@@ -67,6 +69,7 @@ fn trajectory(planned: &planner::Trajectory) -> Trajectory {
     } = planned.clone();
     Trajectory {
         t,
+        attitude: attitude.map_or("angle", SpatialAttitude::name).into(),
         base_attitude,
         base_position,
         base_rate,

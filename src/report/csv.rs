@@ -46,6 +46,7 @@ mod tests {
         let one = |value| vec![vec![value]];
         let trajectory = Trajectory {
             t: vec![0.1],
+            attitude: "angle".into(),
             base_attitude: one(1.0 / 3.0),
             base_position: vec![vec![1e-20, 2.0]],
             base_rate: one(3.0),

@@ -1,5 +1,6 @@
 //! Numbers as a person reads them.
 
+use crate::dynamics::attitude::SpatialAttitude;
 use std::time::Duration;
 
 /// An angle (rad) in degrees, three decimals.
@@ -20,6 +21,18 @@ pub fn seconds(time: Duration) -> String {
         s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
         s if s < 10.0 => format!("{s:.2} s"),
         s => format!("{s:.1} s"),
+    }
+}
+
+/// An orientation as the rotation from the start, its axis in inertial axes.
+pub fn rotation(attitude: SpatialAttitude, eta: &[f64]) -> String {
+    let turn = attitude.to_quaternion(eta);
+    match turn.axis() {
+        Some(axis) => {
+            let [x, y, z] = [0, 1, 2].map(|i| unsigned_zero(axis[i], 3));
+            format!("{} about ({x:.3}, {y:.3}, {z:.3})", degrees(turn.angle()))
+        }
+        None => degrees(0.0),
     }
 }
 

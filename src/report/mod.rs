@@ -23,7 +23,7 @@ mod warm_start;
 pub use build::Build;
 pub use convert::solution;
 pub use csv::trajectory_csv;
-pub use format::{centimetres, degrees, seconds};
+pub use format::{centimetres, degrees, rotation, seconds};
 pub use json::to_json;
 pub use lines::Lines;
 pub use output::{OutputError, OutputFolder};

@@ -90,11 +90,15 @@ pub struct Mesh {
 pub struct Trajectory {
     /// Times of the nodes, s; the last is t_f.
     pub t: Vec<f64>,
-    /// Base attitude, rad.
+    /// How `base_attitude` describes the orientation: "angle" in the plane, else "roll-pitch-yaw",
+    /// "quaternion" (w, x, y, z) or "mrp"; empty in files that do not say.
+    #[serde(default)]
+    pub attitude: String,
+    /// Base attitude: angles in rad, or the parameters of another description.
     pub base_attitude: Vec<Vec<f64>>,
     /// Base position relative to the system's mass centre, m.
     pub base_position: Vec<Vec<f64>>,
-    /// Rates of the base attitude angles, rad/s.
+    /// Rates of the base attitude angles, or else the angular velocity in base axes, rad/s.
     pub base_rate: Vec<Vec<f64>>,
     /// Joint positions, rad or m.
     pub joint_position: Vec<Vec<f64>>,
@@ -109,7 +113,7 @@ pub struct Trajectory {
 /// Figures a person asks for first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Metrics {
-    /// Largest magnitude of any base attitude angle, rad.
+    /// Largest magnitude of any base attitude angle, or else of the rotation angle, rad.
     #[serde(with = "number")]
     pub max_base_attitude: f64,
     /// The same at t_f, rad.

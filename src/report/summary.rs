@@ -1,7 +1,8 @@
 //! What a roboticist wants to know, in degrees and centimetres.
 
-use super::format::{centimetres, degrees, list, seconds};
+use super::format::{centimetres, degrees, list, rotation, seconds};
 use super::lines::Lines;
+use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
 use crate::planner::{Plan, Problem, Status};
 use crate::verify::Verification;
@@ -121,12 +122,15 @@ fn motion(lines: &mut Lines, robot: &Model, plan: &Plan) {
     let found = &plan.metrics;
     let last = |rows: &[Vec<f64>]| rows.last().cloned().unwrap_or_default();
     let attitude = last(&plan.trajectory.base_attitude);
+    let at_end = match plan.trajectory.attitude {
+        Some(by) if !by.is_angles() => rotation(by, &attitude),
+        _ => list(&attitude, degrees),
+    };
     lines.add(
         "base attitude",
         format!(
-            "largest {}, final {}",
-            degrees(found.max_base_attitude),
-            list(&attitude, degrees)
+            "largest {}, final {at_end}",
+            degrees(found.max_base_attitude)
         ),
     );
     let position = last(&plan.trajectory.base_position);

@@ -3,22 +3,36 @@
 //! Always in three dimensions, also for planar robots: what a plane takes for granted is seen
 //! here if it does not hold.
 
+use crate::dynamics::attitude::SpatialAttitude;
 use crate::dynamics::{JointKind, Model};
-use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-/// Orientation of the base for the attitude angles η: a turn about the plane's normal, or
-/// roll-pitch-yaw in space.
-pub fn orientation(model: &Model, eta: &[f64]) -> UnitQuaternion<f64> {
-    match model.plane() {
-        Some(plane) => {
+/// Orientation of the base for the attitude η: a turn about the plane's normal, or as `attitude`
+/// describes it in space.
+pub fn orientation(model: &Model, attitude: SpatialAttitude, eta: &[f64]) -> UnitQuaternion<f64> {
+    match (model.plane(), attitude) {
+        (Some(plane), _) => {
             let normal = Unit::new_normalize(plane.basis.column(2).into_owned());
             UnitQuaternion::from_axis_angle(&normal, eta[0])
         }
-        None => {
+        (None, SpatialAttitude::RollPitchYaw) => {
             let about = UnitQuaternion::from_axis_angle;
             about(&Vector3::z_axis(), eta[2])
                 * about(&Vector3::y_axis(), eta[1])
                 * about(&Vector3::x_axis(), eta[0])
+        }
+        (None, SpatialAttitude::Quaternion) => {
+            UnitQuaternion::new_normalize(Quaternion::new(eta[0], eta[1], eta[2], eta[3]))
+        }
+        (None, SpatialAttitude::Mrp) => {
+            let sigma = Vector3::from_column_slice(eta);
+            let length = sigma.norm();
+            let turn = if length > 0.0 {
+                sigma * (4.0 * length.atan() / length)
+            } else {
+                sigma
+            };
+            UnitQuaternion::from_scaled_axis(turn)
         }
     }
 }

@@ -126,9 +126,8 @@ pub enum VerifyError {
 /// [`VerifyError`] where plan and robot do not belong together or the integration gets stuck.
 pub fn verify(problem: &Problem, plan: &Discretization) -> Result<Verification, VerifyError> {
     check(problem, plan)?;
-    let (angles, _) = Problem::base_sizes(&problem.robot);
     let mut found = Verification::default();
-    let planned = || pass::Planned::new(problem, plan, angles);
+    let planned = || pass::Planned::new(problem, plan);
     pass::run(forward::Forward::new(planned()), plan, &mut found)?;
     pass::run(replay::Replay::new(planned()), plan, &mut found)?;
     Ok(found)
@@ -140,13 +139,18 @@ pub fn verify(problem: &Problem, plan: &Discretization) -> Result<Verification, 
 /// [`VerifyError`] for the first thing that is wrong.
 pub fn check(problem: &Problem, plan: &Discretization) -> Result<(), VerifyError> {
     let model = &problem.robot;
-    let (angles, _) = Problem::base_sizes(model);
-    shape(model.name(), angles, model.joint_count(), plan)
+    let (parameters, _) = problem.attitude_sizes();
+    shape(model.name(), parameters, model.joint_count(), plan)
 }
 
-fn shape(robot: &str, angles: usize, n: usize, plan: &Discretization) -> Result<(), VerifyError> {
+fn shape(
+    robot: &str,
+    parameters: usize,
+    n: usize,
+    plan: &Discretization,
+) -> Result<(), VerifyError> {
     let points = plan.mesh.points();
-    let (states, controls) = (angles + 2 * n, n);
+    let (states, controls) = (parameters + 2 * n, n);
     for (what, found, expected) in [
         ("states", plan.states, states),
         ("controls", plan.controls, controls),

@@ -5,6 +5,7 @@ use super::integrate::{DormandPrince, Motion, Stuck};
 use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
 use super::{Verification, VerifyError};
 use crate::dynamics::Model;
+use crate::dynamics::attitude::SpatialAttitude;
 use crate::planner::Problem;
 use crate::transcription::Discretization;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -18,6 +19,7 @@ const MAX_STEPS: usize = 1_000_000;
 pub(super) struct Planned<'a> {
     pub model: &'a Model,
     plan: &'a Discretization,
+    attitude: SpatialAttitude,
     angles: usize,
     bodies: Bodies,
     /// Fractions of the duration of all nodes.
@@ -30,7 +32,7 @@ pub(super) struct Planned<'a> {
 }
 
 impl<'a> Planned<'a> {
-    pub fn new(problem: &'a Problem, plan: &'a Discretization, angles: usize) -> Self {
+    pub fn new(problem: &'a Problem, plan: &'a Discretization) -> Self {
         let model = &problem.robot;
         let momentum = &problem.task.initial_momentum;
         // In the plane: along its axes, and about its normal.
@@ -50,7 +52,8 @@ impl<'a> Planned<'a> {
             total_mass: model.total_mass(),
             model,
             plan,
-            angles,
+            attitude: problem.attitude,
+            angles: problem.attitude_sizes().0,
             bodies: Bodies::new(model),
             fractions: plan.mesh.node_fractions(),
             still: vec![0.0; model.joint_count()],
@@ -64,7 +67,11 @@ impl<'a> Planned<'a> {
 
     /// Orientation and position ζ = −R·r_cm of the base at node `k`.
     pub fn base(&mut self, k: usize) -> (UnitQuaternion<f64>, Vector3<f64>) {
-        let orientation = orientation(self.model, &self.plan.state(k)[..self.angles]);
+        let orientation = orientation(
+            self.model,
+            self.attitude,
+            &self.plan.state(k)[..self.angles],
+        );
         let base = BaseMotion::placed(Vector3::zeros(), orientation);
         self.bodies
             .update(self.model, &base, self.joints(k), &self.still);

@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 use fastrand::Rng;
+use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, Model, Placement};
 use ffsm_ipopt::nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
@@ -19,6 +20,18 @@ pub fn vector(rng: &mut Rng) -> Vector3<f64> {
 
 pub fn values(rng: &mut Rng, count: usize, size: f64) -> Vec<f64> {
     (0..count).map(|_| size * uniform(rng)).collect()
+}
+
+/// A random base attitude, away from the description's singularity.
+pub fn attitude(rng: &mut Rng, by: SpatialAttitude) -> Vec<f64> {
+    match by {
+        SpatialAttitude::RollPitchYaw => values(rng, 3, 1.3),
+        SpatialAttitude::Quaternion => {
+            let q = Quaternion::from_parts(uniform(rng), vector(rng)).normalize();
+            vec![q.w, q.i, q.j, q.k]
+        }
+        SpatialAttitude::Mrp => values(rng, 3, 1.2),
+    }
 }
 
 pub fn rotation(rng: &mut Rng) -> Matrix3<f64> {

@@ -1,8 +1,12 @@
-//! How the base's orientation is described: one angle in the plane, roll-pitch-yaw in space.
+//! How the base's orientation is described: one angle in the plane; roll-pitch-yaw, a unit
+//! quaternion or modified Rodrigues parameters in space.
 
 mod planar;
+mod quaternion;
+mod rodrigues;
 mod roll_pitch_yaw;
 mod spatial;
+mod turn;
 
 pub use planar::PlanarAngle;
 pub use spatial::SpatialAttitude;
@@ -20,6 +24,9 @@ pub trait Attitude<Sp: Space>: Copy + Debug + PartialEq + Send + Sync + 'static 
     /// roll-pitch-yaw in space.
     const BY_ANGLES: Self;
 
+    /// Which of the descriptions in space this is; `None` in the plane.
+    fn in_space(self) -> Option<SpatialAttitude>;
+
     /// Names of the parameters.
     fn names(self) -> &'static [&'static str];
 
@@ -30,6 +37,10 @@ pub trait Attitude<Sp: Space>: Copy + Debug + PartialEq + Send + Sync + 'static 
 
     /// Parameters of the orientation at t₀, in which base axes and inertial axes agree.
     fn start(self) -> &'static [f64];
+
+    /// Whether the parameters are angles, each with limits and a cost of its own. Else these are
+    /// about the rotation angle from the orientation at t₀, and about the angular velocity.
+    fn is_angles(self) -> bool;
 
     /// η̇ (length [`Attitude::count`]) for the base's angular velocity in base axes (rad/s).
     fn rates<S: Scalar>(self, eta: &[S], omega: &Sp::Angular<S>, rates: &mut [S]);
@@ -42,6 +53,10 @@ pub trait Attitude<Sp: Space>: Copy + Debug + PartialEq + Send + Sync + 'static 
 
     /// An orientation in base axes, turned to inertial axes.
     fn orient<S: Scalar>(self, eta: &[S], orientation: &Sp::Orientation<S>) -> Sp::Orientation<S>;
+
+    /// φ², the square of the angle of the shortest rotation from the orientation at t₀; smooth at
+    /// zero, where φ is not.
+    fn squared_turn<S: Scalar>(self, eta: &[S]) -> S;
 
     /// The constant orientation that `eta` describes.
     fn orientation(self, eta: &[f64]) -> Sp::Orientation<f64> {

@@ -1,6 +1,6 @@
 //! The base attitude in the plane: one angle.
 
-use super::Attitude;
+use super::{Attitude, SpatialAttitude};
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Planar;
 use nalgebra::{Vector1, Vector2};
@@ -12,12 +12,20 @@ pub struct PlanarAngle;
 impl Attitude<Planar> for PlanarAngle {
     const BY_ANGLES: Self = Self;
 
+    fn in_space(self) -> Option<SpatialAttitude> {
+        None
+    }
+
     fn names(self) -> &'static [&'static str] {
         &["base attitude"]
     }
 
     fn start(self) -> &'static [f64] {
         &[0.0]
+    }
+
+    fn is_angles(self) -> bool {
+        true
     }
 
     #[inline]
@@ -34,6 +42,11 @@ impl Attitude<Planar> for PlanarAngle {
     #[inline]
     fn to_base<S: Scalar>(self, _eta: &[S], v: &Vector1<f64>) -> Vector1<S> {
         v.map(S::constant)
+    }
+
+    #[inline]
+    fn squared_turn<S: Scalar>(self, eta: &[S]) -> S {
+        eta[0].square()
     }
 
     #[inline]

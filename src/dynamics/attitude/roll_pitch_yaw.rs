@@ -28,3 +28,15 @@ pub(super) fn to_inertial<S: Scalar>(eta: &[S], v: &Vector3<S>) -> Vector3<S> {
     let (x, y) = turn(eta[2], x, y);
     Vector3::new(x, y, z)
 }
+
+/// Scalar and vector part of the quaternion of the same orientation.
+#[inline]
+pub(super) fn quaternion<S: Scalar>(eta: &[S]) -> (S, Vector3<S>) {
+    let [(sr, cr), (sp, cp), (sy, cy)] = [0, 1, 2].map(|i| (eta[i] * 0.5).sin_cos());
+    let vector = Vector3::new(
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+    );
+    (cr * cp * cy + sr * sp * sy, vector)
+}
