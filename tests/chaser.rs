@@ -3,6 +3,7 @@
 mod program;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
+use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::planner::{Plan, Planner, Status};
 use program::Folder;
 use std::fs;
@@ -89,4 +90,28 @@ fn plan_where_the_base_matters_more() {
     assert!(relative.abs() < 1e-6, "J = {:.10}", plan.objective);
     let (_, last) = attitudes(&plan);
     assert_within(last, [-0.0086, 1.3543, 0.3465], 1e-3);
+}
+
+#[test]
+fn every_description_of_the_attitude_gives_the_same_plan() {
+    // Costs that do not depend on the description, and no limits that do.
+    let mut problem = ProblemFile::shipped("chaser-7dof").unwrap().problem;
+    problem.mesh.max_iterations = 1;
+    problem.mesh.segments = 10;
+    let [angles, quaternion, rodrigues] = SpatialAttitude::ALL.map(|attitude| {
+        problem.set_attitude(attitude);
+        Planner::new().plan(&problem).unwrap()
+    });
+    assert!(angles.objective > 0.03, "J = {}", angles.objective);
+    let end = |plan: &Plan| {
+        let found = &plan.trajectory;
+        let by = found.attitude.unwrap();
+        by.to_quaternion(found.base_attitude.last().unwrap())
+    };
+    for other in [quaternion, rodrigues] {
+        let gap = (other.objective / angles.objective - 1.0).abs();
+        assert!(gap < 1e-8, "objectives {gap:e} apart");
+        let gap = end(&other).angle_to(&end(&angles));
+        assert!(gap < 1e-6, "orientations {gap:e} rad apart");
+    }
 }

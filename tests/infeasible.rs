@@ -3,10 +3,11 @@
 mod problems;
 
 use ffsm_ipopt::autodiff::Scalar;
+use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::dynamics::space::Planar;
 use ffsm_ipopt::dynamics::{Data, Tree};
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{Status, plan};
+use ffsm_ipopt::planner::{Problem, Status, plan};
 use std::f64::consts::PI;
 
 #[test]
@@ -83,6 +84,53 @@ fn a_limit_on_the_joints_is_named_too() {
         limits
             .iter()
             .all(|l| l.excess > 0.0 && l.smallest_bound.upper > l.bound.upper)
+    );
+}
+
+#[test]
+fn a_limit_on_the_rotation_angle_is_named_in_degrees() {
+    // An arm that can hardly move on a base that tumbles: as one body, by L/I·t about z.
+    let mut problem = Problem::new(
+        "still",
+        problems::two_link().in_space(),
+        20.0,
+        &[0.0; 2],
+        &[0.0; 2],
+    );
+    problem.set_attitude(SpatialAttitude::Quaternion);
+    problem.task.initial_momentum.angular = vec![0.0, 0.0, 0.05];
+    problem.limits.control = vec![Interval::symmetric(1e-6); 2];
+    problem.limits.base_attitude = vec![Interval::symmetric(0.1)];
+    problem.limits.final_base_attitude = vec![Interval::symmetric(0.05)];
+    problem.cost.joint_rate = vec![1.0; 2];
+    problem.mesh.segments = 2;
+    problem.mesh.points = 4;
+    let plan = plan(&problem).unwrap();
+    assert_eq!(plan.status, Status::Infeasible);
+    // Of (mass, inertia, distance) of each body.
+    let bodies = [
+        (15.2, 0.1454, 0.0),
+        (1.7, 0.059, 0.52),
+        (1.2, 0.0486, 1.012),
+    ];
+    let mass: f64 = bodies.iter().map(|b| b.0).sum();
+    let center = bodies.iter().map(|b| b.0 * b.2).sum::<f64>() / mass;
+    let about = |b: &(f64, f64, f64)| b.1 + b.0 * (b.2 - center).powi(2);
+    let turned = 0.05 / bodies.iter().map(about).sum::<f64>() * 20.0;
+    let diagnosis = plan.diagnosis.expect("a diagnosis");
+    let keys: Vec<&str> = diagnosis.limits.iter().map(|l| l.key.as_str()).collect();
+    assert_eq!(keys, ["limits.base_attitude", "limits.final_base_attitude"]);
+    for (limit, bound) in diagnosis.limits.iter().zip([0.1, 0.05]) {
+        assert_eq!(limit.component, "base rotation angle");
+        assert_eq!((limit.bound.lower, limit.bound.upper), (0.0, bound));
+        let gap = (limit.smallest_bound.upper - turned).abs();
+        assert!(gap < 2e-3 * turned, "{limit:?}, expected {turned}");
+    }
+    let start = "limits.base_attitude = 5.73° (base rotation angle) cannot hold; the smallest";
+    assert!(
+        diagnosis.summary.starts_with(start),
+        "{}",
+        diagnosis.summary
     );
 }
 

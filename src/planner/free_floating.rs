@@ -224,7 +224,8 @@ impl<Sp: Space> FreeFloating<Sp> {
         turn.extend(path.filter(on_turn).map(Limited::Path));
         let ends = (0..self.turn.ends().len()).map(|b| Limited::Boundary(self.goal_rows() + b));
         turn.extend(ends);
-        push(ROTATION.into(), turn, &Interval::symmetric(1.0));
+        // Of the squares: twice the relative excess of the angle, to first order.
+        push(ROTATION.into(), turn, &Interval::symmetric(2.0));
         for (i, row) in self
             .formulation
             .path
