@@ -4,6 +4,7 @@
 //! safe wrapper over the `ipopt-sys` bindings. Nothing here knows optimal control.
 
 pub mod ipopt;
+pub mod kkt;
 
 mod iterate;
 mod problem;

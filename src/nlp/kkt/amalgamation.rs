@@ -1,0 +1,112 @@
+//! Small fronts are merged where the fewer steps are worth the zeros they bring.
+
+use super::graph::Graph;
+use super::ordering::RawFront;
+use super::symbolic::padded;
+
+/// A front by its unknowns, in postorder.
+#[derive(Debug, Default)]
+pub(super) struct Merged {
+    pub pivots: Vec<u32>,
+    pub border: Vec<u32>,
+    pub parent: Option<usize>,
+}
+
+/// Estimated time of a front of `c` pivots and `b` other rows, in units of a vector operation.
+fn cost(c: usize, b: usize) -> f64 {
+    let rows = (padded(c) + padded(b)) as f64 / 4.0;
+    let (c, b) = (c as f64, b as f64);
+    let panel = c * c / 2.0 * rows;
+    let search = c * (2.0 * rows + 30.0);
+    let update = c * b * (b + 4.0) / 8.0;
+    let contribution = b * (b + 4.0);
+    let solve = 4.0 * c * rows + 4.0 * b;
+    panel + search + update + contribution + solve + 120.0
+}
+
+/// Merges fronts into their parents and puts the tree into postorder.
+pub(super) fn merge(graph: &Graph, raw: &[RawFront]) -> Vec<Merged> {
+    let count = raw.len();
+    let unknowns = |nodes: &[u32]| -> usize {
+        nodes
+            .iter()
+            .map(|&node| graph.weight(node as usize) as usize)
+            .sum()
+    };
+    let mut pivots: Vec<usize> = raw.iter().map(|front| unknowns(&front.pivots)).collect();
+    let border: Vec<usize> = raw.iter().map(|front| unknowns(&front.border)).collect();
+    let mut into: Vec<usize> = (0..count).collect();
+    for front in 0..count {
+        let Some(parent) = raw[front].parent else {
+            continue;
+        };
+        let (c, b) = (pivots[front], border[front]);
+        let apart = cost(c, b) + cost(pivots[parent], border[parent]);
+        let together = cost(c + pivots[parent], border[parent]);
+        if together < apart {
+            into[front] = parent;
+            pivots[parent] += c;
+        }
+    }
+    // Parents come after children, so that one pass from the end finds where each front ends up.
+    for front in (0..count).rev() {
+        into[front] = into[into[front]];
+    }
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); count];
+    let mut roots = Vec::new();
+    for front in (0..count).filter(|&front| into[front] == front) {
+        match raw[front].parent.map(|parent| into[parent]) {
+            Some(parent) => children[parent].push(front),
+            None => roots.push(front),
+        }
+    }
+    let mut parts: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for front in 0..count {
+        parts[into[front]].push(front);
+    }
+    let mut place = vec![usize::MAX; count];
+    let mut merged: Vec<Merged> = Vec::new();
+    for front in postorder(&roots, &children) {
+        place[front] = merged.len();
+        for &child in &children[front] {
+            merged[place[child]].parent = Some(place[front]);
+        }
+        let expand = |nodes: &[u32]| -> Vec<u32> {
+            nodes
+                .iter()
+                .flat_map(|&node| graph.unknowns(node as usize).iter().copied())
+                .collect()
+        };
+        merged.push(Merged {
+            pivots: parts[front]
+                .iter()
+                .flat_map(|&part| expand(&raw[part].pivots))
+                .collect(),
+            border: expand(&raw[front].border),
+            parent: None,
+        });
+    }
+    merged
+}
+
+/// Every front after all of its children.
+fn postorder(roots: &[usize], children: &[Vec<usize>]) -> Vec<usize> {
+    let mut order = Vec::new();
+    let mut stack: Vec<(usize, usize)> = Vec::new();
+    for &root in roots {
+        stack.push((root, 0));
+        while let Some((front, next)) = stack.last_mut() {
+            match children[*front].get(*next) {
+                Some(&child) => {
+                    *next += 1;
+                    stack.push((child, 0));
+                }
+                None => {
+                    order.push(*front);
+                    stack.pop();
+                }
+            }
+        }
+    }
+    order
+}

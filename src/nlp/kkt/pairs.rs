@@ -1,0 +1,54 @@
+//! Pivots of order two that the structure suggests: a multiplier and a variable of its row.
+
+use super::Pattern;
+
+/// The unknown that each one is paired with; itself where it stays alone.
+///
+/// Multipliers have no diagonal to speak of, so that each needs a variable beside it. Rarest
+/// variables first: a slack stands in one row only, a control in few, a state in many.
+pub(super) fn partners(pattern: &Pattern, primal: usize) -> Vec<u32> {
+    let n = pattern.len();
+    let mut partner: Vec<u32> = (0..n as u32).collect();
+    if primal >= n {
+        return partner;
+    }
+    // Rows of multipliers each variable stands in, and variables of each such row.
+    let mut rows_of = vec![0_u32; primal];
+    let mut start = vec![0_u32; n - primal + 1];
+    let between = || {
+        pattern
+            .entries()
+            .filter(|&(row, column)| row >= primal && column < primal)
+    };
+    for (row, column) in between() {
+        rows_of[column] += 1;
+        start[row - primal + 1] += 1;
+    }
+    for row in 0..n - primal {
+        start[row + 1] += start[row];
+    }
+    let mut fill = start.clone();
+    let mut variables = vec![0_u32; start[n - primal] as usize];
+    for (row, column) in between() {
+        let place = &mut fill[row - primal];
+        variables[*place as usize] = column as u32;
+        *place += 1;
+    }
+    let mut order: Vec<u32> = (0..(n - primal) as u32).collect();
+    let row = |r: u32| &variables[start[r as usize] as usize..start[r as usize + 1] as usize];
+    let least = |r: u32| row(r).iter().map(|&v| rows_of[v as usize]).min();
+    order.sort_by_key(|&r| least(r).unwrap_or(u32::MAX));
+    for r in order {
+        let multiplier = primal as u32 + r;
+        let free = row(r)
+            .iter()
+            .copied()
+            .filter(|&v| partner[v as usize] == v)
+            .min_by_key(|&v| rows_of[v as usize]);
+        if let Some(variable) = free {
+            partner[variable as usize] = multiplier;
+            partner[multiplier as usize] = variable;
+        }
+    }
+    partner
+}

@@ -1,0 +1,110 @@
+//! Solution with the factors: forward, by the pivots, and backward.
+
+use super::factor::Factors;
+use super::symbolic::{Symbolic, padded};
+use super::update::fused;
+
+impl Factors {
+    /// Overwrites the right-hand side `x` by the solution.
+    ///
+    /// Unknowns of zero pivots are set to zero.
+    ///
+    /// # Panics
+    /// Where `x` is shorter than the matrix, or nothing was factorised yet.
+    pub fn solve(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
+        assert!(x.len() >= symbolic.len());
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+        {
+            // SAFETY: the processor has both.
+            unsafe { self.solve_avx2(symbolic, x) };
+            return;
+        }
+        self.solve_with::<false>(symbolic, x);
+    }
+
+    /// # Safety
+    /// The processor has AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn solve_avx2(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
+        self.solve_with::<true>(symbolic, x);
+    }
+
+    #[inline(always)]
+    fn solve_with<const FMA: bool>(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
+        for (front, place) in symbolic.fronts.iter().zip(&self.places) {
+            let pivots = padded(place.columns);
+            let ld = pivots + padded(front.border);
+            let unknowns = &self.unknowns[place.pivots..place.pivots + place.columns];
+            let inverse = &self.inverse[place.pivots..place.pivots + place.columns];
+            let y = &mut self.vector[..ld];
+            y.fill(0.0);
+            for (y, &unknown) in y.iter_mut().zip(unknowns) {
+                *y = x[unknown as usize];
+            }
+            let panel = &self.panels[place.panel..place.panel + ld * place.eliminated];
+            for (k, column) in panel.chunks_exact(ld).enumerate() {
+                let from = k / 4 * 4;
+                let factor = y[k];
+                let (column, _) = column[from..].as_chunks::<4>();
+                let (rest, _) = y[from..].as_chunks_mut::<4>();
+                for (column, rest) in column.iter().zip(rest) {
+                    for (l, y) in column.iter().zip(rest) {
+                        *y = fused::<FMA>(-factor, *l, *y);
+                    }
+                }
+            }
+            let mut k = 0;
+            while k < place.eliminated {
+                let [d, link] = inverse[k];
+                if link == 0.0 {
+                    x[unknowns[k] as usize] = d * y[k];
+                    k += 1;
+                } else {
+                    let e = inverse[k + 1][0];
+                    x[unknowns[k] as usize] = d * y[k] + link * y[k + 1];
+                    x[unknowns[k + 1] as usize] = link * y[k] + e * y[k + 1];
+                    k += 2;
+                }
+            }
+            for k in place.eliminated..place.columns {
+                x[unknowns[k] as usize] = y[k];
+            }
+            let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
+            for (&unknown, y) in border.iter().zip(&y[pivots..]) {
+                x[unknown as usize] += y;
+            }
+        }
+        for (front, place) in symbolic.fronts.iter().zip(&self.places).rev() {
+            let pivots = padded(place.columns);
+            let ld = pivots + padded(front.border);
+            let unknowns = &self.unknowns[place.pivots..place.pivots + place.columns];
+            let y = &mut self.vector[..ld];
+            y.fill(0.0);
+            for (y, &unknown) in y.iter_mut().zip(unknowns) {
+                *y = x[unknown as usize];
+            }
+            let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
+            for (y, &unknown) in y[pivots..].iter_mut().zip(border) {
+                *y = x[unknown as usize];
+            }
+            let panel = &self.panels[place.panel..place.panel + ld * place.eliminated];
+            for (k, column) in panel.chunks_exact(ld).enumerate().rev() {
+                let from = k / 4 * 4;
+                let (column, _) = column[from..].as_chunks::<4>();
+                let (rest, _) = y[from..].as_chunks::<4>();
+                let mut sums = [0.0; 4];
+                for (column, rest) in column.iter().zip(rest) {
+                    for lane in 0..4 {
+                        sums[lane] = fused::<FMA>(column[lane], rest[lane], sums[lane]);
+                    }
+                }
+                y[k] -= (sums[0] + sums[2]) + (sums[1] + sums[3]);
+            }
+            for (y, &unknown) in y.iter().zip(&unknowns[..place.eliminated]) {
+                x[unknown as usize] = *y;
+            }
+        }
+    }
+}
