@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 clean
+.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -13,6 +13,9 @@ test: ## run every test in release
 
 test-ipopt-3.14: ## run the tests against a newer Ipopt, 3.14
 	scripts/ipopt-3.14.sh
+
+test-threads: ## four threads solving for a minute, against one thread
+	cargo test --release --locked --test ipopt for_a_minute -- --ignored
 
 oracle: ## hold plans and golden values against Pinocchio, SPART and MuJoCo
 	scripts/oracle.sh

@@ -10,7 +10,7 @@ fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=wrapper.h");
     println!("cargo::rerun-if-env-changed=LIBCLANG_PATH");
-    println!("cargo::rustc-check-cfg=cfg(ipopt_hsl_loader)");
+    println!("cargo::rustc-check-cfg=cfg(ipopt_hsl_loader, ipopt_bridge)");
 
     let ipopt = find();
     // `pkg-config --libs` also names libraries whose -dev packages need not be there (LAPACK,
@@ -30,6 +30,9 @@ fn main() {
     };
     if has("HSLLoader.h") {
         println!("cargo::rustc-cfg=ipopt_hsl_loader");
+    } else if env::var("CARGO_CFG_TARGET_OS").is_ok_and(|system| system == "linux") {
+        build_bridge();
+        println!("cargo::rustc-cfg=ipopt_bridge");
     }
     bind(&ipopt);
 }
@@ -59,6 +62,22 @@ fn find() -> pkg_config::Library {
     fail(&format!(
         "{why}. Install Ipopt ({PACKAGES}), or set PKG_CONFIG_PATH to the directory of its ipopt.pc"
     ))
+}
+
+/// Makes the shared library that hands the calls of HSL_MA97's interface back to us.
+fn build_bridge() {
+    let source = "src/bridge.c";
+    println!("cargo::rerun-if-changed={source}");
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR")).join("bridge.so");
+    let mut compiler = cc::Build::new().pic(true).get_compiler().to_command();
+    compiler.args(["-shared", "-o"]).arg(&out).arg(source);
+    match compiler.status() {
+        Ok(status) if status.success() => {}
+        outcome => fail(&format!(
+            "the C compiler cannot make a shared library of {source} ({outcome:?}). Install one \
+             (apt-get install gcc libc6-dev), or set CC"
+        )),
+    }
 }
 
 fn bind(ipopt: &pkg_config::Library) {

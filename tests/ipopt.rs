@@ -10,7 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::Command;
 use std::sync::atomic::Ordering;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 // ---------------------------------------------------------------- programmes
 
@@ -672,21 +672,105 @@ fn two_threads_solve_at_once() {
 
 #[test]
 fn a_solve_inside_a_solve_is_refused() {
-    let start = Iterate::primal(HS071_START.to_vec());
-    let mut inner = None;
-    let outer = solve(&mut hs071(), &Settings::default(), &start, &mut |_| {
-        inner.get_or_insert_with(|| run(&mut hs071(), &Settings::default(), &HS071_START));
-        Control::Continue
+    let nested = |linear_solver: &str| {
+        let settings = Settings {
+            linear_solver: linear_solver.into(),
+            ..Settings::default()
+        };
+        let start = Iterate::primal(HS071_START.to_vec());
+        let mut inner = None;
+        let outer = solve(&mut hs071(), &settings, &start, &mut |_| {
+            inner.get_or_insert_with(|| run(&mut hs071(), &settings, &HS071_START));
+            Control::Continue
+        });
+        assert_eq!(outer.unwrap().status, Status::Solved);
+        inner.unwrap()
+    };
+    assert_eq!(nested("mumps"), Err(IpoptError::Nested("mumps".into())));
+    // Ours keeps no state outside the solve.
+    let inner = nested("ours");
+    assert_eq!(inner.unwrap().status, Status::Solved);
+}
+
+/// Four threads with problems of their own for `time`, against one thread.
+fn threads_agree(time: Duration) {
+    assert!(!ffsm_ipopt::nlp::ipopt::serialised("ours"));
+    let case = |kind: usize| {
+        let settings = Settings {
+            linear_solver: "ours".into(),
+            ..Settings::default()
+        };
+        let solution = if kind == 0 {
+            run(&mut hs071(), &settings, &HS071_START).unwrap()
+        } else {
+            let points = 20 + 37 * kind;
+            let mut nlp = Chain {
+                points,
+                upper: false,
+            };
+            run(&mut nlp, &settings, &vec![0.9; points]).unwrap()
+        };
+        assert_eq!(solution.statistics.fallbacks, 0);
+        (solution.status, solution.iterate, solution.constraints)
+    };
+    let alone: Vec<_> = (0..8).map(case).collect();
+    let begin = Instant::now();
+    std::thread::scope(|scope| {
+        for thread in 0..4 {
+            let alone = &alone;
+            scope.spawn(move || {
+                let mut next = thread;
+                while begin.elapsed() < time {
+                    assert_eq!(case(next % 8), alone[next % 8], "case {}", next % 8);
+                    next += 1;
+                }
+                assert!(next > thread + 8, "too few solves to tell");
+            });
+        }
     });
-    assert_eq!(inner, Some(Err(IpoptError::Nested("mumps".into()))));
-    assert_eq!(outer.unwrap().status, Status::Solved);
+}
+
+#[test]
+fn four_threads_find_what_one_finds() {
+    threads_agree(Duration::from_secs(2));
+}
+
+/// `make test-threads`.
+#[test]
+#[ignore = "takes a minute"]
+fn four_threads_find_what_one_finds_for_a_minute() {
+    threads_agree(Duration::from_secs(60));
+}
+
+#[test]
+fn ours_finds_what_mumps_finds() {
+    for points in [2, 3, 50, 300] {
+        let mut nlp = Chain {
+            points,
+            upper: false,
+        };
+        let [ours, mumps] = ["ours", "mumps"].map(|name| {
+            let settings = Settings {
+                linear_solver: name.into(),
+                ..Settings::default()
+            };
+            run(&mut nlp, &settings, &vec![0.9; points]).unwrap()
+        });
+        assert_eq!(
+            (ours.status, mumps.status),
+            (Status::Solved, Status::Solved)
+        );
+        assert_eq!(ours.statistics.fallbacks, 0);
+        assert!(ours.statistics.iterations <= mumps.statistics.iterations);
+        assert_near(&ours.iterate.x, &mumps.iterate.x, 1e-7);
+    }
 }
 
 #[test]
 fn the_linear_solvers_listed_are_those_that_solve() {
     let listed = linear_solvers();
     assert!(listed.contains(&"mumps"), "{listed:?}");
-    for name in ["ma27", "ma97", "pardiso", "spral", "unheard-of"] {
+    for name in ["ours", "ma27", "ma97", "pardiso", "spral", "unheard-of"] {
         let settings = Settings {
             linear_solver: name.into(),
             ..Settings::default()
@@ -743,7 +827,8 @@ fn options_by_name_come_last() {
     let solution = run(&mut hs071(), &settings, &HS071_START).unwrap();
     assert_eq!(solution.status, Status::Solved);
     // MUMPS's own choice of ordering is to be had.
-    let settings = with_option("mumps_pivot_order", OptionValue::Integer(7));
+    let mut settings = with_option("mumps_pivot_order", OptionValue::Integer(7));
+    settings.linear_solver = "mumps".into();
     let solution = run(&mut hs071(), &settings, &HS071_START).unwrap();
     assert_eq!(solution.status, Status::Solved);
 }

@@ -1,7 +1,8 @@
 //! Whether Ipopt can reach a routine of the HSL.
 //!
-//! Ipopt looks for these routines when it first needs them, and for two of them it does not
-//! survive finding none: 3.11 ends the process, 3.14 reads a null pointer. So ask first.
+//! Ipopt looks for these routines when it first needs them, and for MC19, as for HSL_MA97 in
+//! [`crate::ma97`], it does not survive finding none: 3.11 ends the process, 3.14 reads a null
+//! pointer. So ask first.
 
 use std::ffi::CStr;
 use std::sync::{Mutex, PoisonError};
@@ -9,8 +10,6 @@ use std::sync::{Mutex, PoisonError};
 /// A routine whose absence Ipopt does not survive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Routine {
-    /// The linear solver HSL_MA97.
-    Ma97,
     /// The scaling MC19.
     Mc19,
 }
@@ -38,7 +37,6 @@ mod imp {
             // SAFETY: reads a pointer inside the loader and has no preconditions.
             0 != unsafe {
                 match routine {
-                    Routine::Ma97 => bindings::LSL_isMA97available(),
                     Routine::Mc19 => bindings::LSL_isMC19available(),
                 }
             }
@@ -80,7 +78,6 @@ mod imp {
             return false;
         };
         let names: &[&str] = match routine {
-            Routine::Ma97 => &["ma97_finalise_d"],
             Routine::Mc19 => &["mc19ad_", "mc19ad"],
         };
         let found = names.iter().any(|name| {

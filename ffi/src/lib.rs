@@ -5,6 +5,7 @@
 //! `Bool` is a C `int` in 3.11 and a C `bool` in 3.14: [`from_bool`] and [`is_true`] convert.
 
 pub mod hsl;
+pub mod ma97;
 
 #[allow(
     missing_docs,

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::{Outcome, terminal};
-use crate::nlp::ipopt;
+use crate::nlp::{self, ipopt};
 use crate::report::{Build, Lines};
 use clap::Args;
 use std::path::Path;
@@ -28,6 +28,9 @@ pub(super) fn run(_: &Arguments) -> Result<Outcome, Failure> {
         solvers.join(", ")
     };
     lines.add("linear solvers", working);
+    let settings = nlp::Settings::default();
+    let auto = ipopt::why_not_ours(&settings).unwrap_or_else(|| ipopt::linear_solver(&settings));
+    lines.add("linear_solver auto", auto);
     let options = if Path::new("ipopt.opt").exists() {
         "in this folder, and ignored: options come from the problem file alone"
     } else {

@@ -133,7 +133,8 @@ fn write(
     checked: Option<&Verification>,
     folder: &OutputFolder,
 ) -> Result<(String, Vec<PathBuf>), Failure> {
-    let solution = report::solution(&file.problem.name, plan, checked, Provenance::of(file));
+    let provenance = Provenance::of(file, &plan.linear_solver);
+    let solution = report::solution(&file.problem.name, plan, checked, provenance);
     let failure = |message: String| Failure::Format {
         path: file.path.clone(),
         message,

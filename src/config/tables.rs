@@ -260,10 +260,8 @@ pub(super) fn solver(item: &Item<'_>, solver: &mut nlp::Settings) -> Result<(), 
         solver.max_iterations = item.count(i32::MAX as usize)? as u32;
     }
     if let Some(item) = section.get("linear_solver") {
-        match item.text("\"auto\", or Ipopt's name of a linear solver")? {
-            "auto" => {}
-            name => solver.linear_solver = name.into(),
-        }
+        let expected = "\"auto\", \"ours\", or Ipopt's name of a linear solver";
+        solver.linear_solver = item.text(expected)?.into();
     }
     if let Some(item) = section.get("options") {
         for item in item.entries("a table of Ipopt's options by name")? {

@@ -18,7 +18,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Limit on iterations. Default 500.
     pub max_iterations: u32,
-    /// Linear solver, by Ipopt's name. Default "mumps".
+    /// Linear solver: "auto" or "ours" for our own, with MUMPS where that cannot be had or fails;
+    /// or Ipopt's name of another. Default "auto".
     pub linear_solver: String,
     /// Start from the multipliers of the starting iterate as well, with this barrier
     /// parameter. Default `None`: a cold start.
@@ -36,7 +37,7 @@ impl Default for Settings {
         Self {
             tolerance: 1e-9,
             max_iterations: 500,
-            linear_solver: "mumps".into(),
+            linear_solver: "auto".into(),
             warm_start: None,
             print_level: 0,
             timing: true,

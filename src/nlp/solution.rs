@@ -75,8 +75,10 @@ pub struct Statistics {
     pub evaluations: [u32; 5],
     /// Time in all evaluation callbacks together.
     pub derivatives: Duration,
-    /// Time in the linear solver, as Ipopt reports it; zero where it was not asked for.
+    /// Time in the linear solver; zero where it was not asked for.
     pub linear_solver: Duration,
+    /// Solves that our own linear solver could not serve and MUMPS took over.
+    pub fallbacks: u32,
     /// Wall time of the whole solve, callbacks included.
     pub total: Duration,
 }
@@ -90,6 +92,7 @@ impl Statistics {
         }
         self.derivatives += other.derivatives;
         self.linear_solver += other.linear_solver;
+        self.fallbacks += other.fallbacks;
         self.total += other.total;
         self.barrier = other.barrier;
         self.primal_infeasibility = other.primal_infeasibility;

@@ -142,6 +142,9 @@ pub struct Plan {
     pub diagnosis: Option<Diagnosis>,
     /// What a user should know before using the plan, a sentence each.
     pub warnings: Vec<String>,
+    /// The linear solver used: "ours", or Ipopt's name of another; both where MUMPS had to stand in
+    /// for ours at times.
+    pub linear_solver: String,
     /// Where the time went.
     pub timing: Timing,
 }

@@ -182,7 +182,11 @@ impl Planner {
             outcome.max_error()
         };
         let trajectory = trajectory(system, &outcome.trajectory);
-        let warnings = near_singularity(&trajectory).into_iter().collect();
+        let warnings = [
+            near_singularity(&trajectory),
+            ipopt::why_not_ours(&solver),
+            fallback(&outcome.statistics),
+        ];
         Ok(Plan {
             status,
             method: problem.mesh.method,
@@ -196,7 +200,8 @@ impl Planner {
             iterate: outcome.iterate,
             trajectory,
             diagnosis: finding,
-            warnings,
+            warnings: warnings.into_iter().flatten().collect(),
+            linear_solver: linear_solver(&solver, &outcome.statistics),
         })
     }
 
@@ -243,6 +248,25 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
         && a.limits.keep_out == b.limits.keep_out
         && limited(a) == limited(b)
         && a.task.duration.is_fixed() == b.task.duration.is_fixed()
+}
+
+/// The linear solver behind a plan.
+fn linear_solver(settings: &nlp::Settings, statistics: &nlp::Statistics) -> String {
+    let mut name = ipopt::linear_solver(settings);
+    if statistics.fallbacks > 0 {
+        name.push_str(", mumps");
+    }
+    name
+}
+
+/// A word where MUMPS had to stand in for our own linear solver.
+fn fallback(statistics: &nlp::Statistics) -> Option<String> {
+    (statistics.fallbacks > 0).then(|| {
+        format!(
+            "our linear solver could not serve {} of the solves; MUMPS took them over",
+            statistics.fallbacks
+        )
+    })
 }
 
 /// Cost (25) of a trajectory that no solve of the problem itself ended at.

@@ -13,7 +13,7 @@ pub struct Provenance {
     pub version: String,
     /// Version of Ipopt.
     pub ipopt: String,
-    /// Linear solver inside Ipopt.
+    /// Linear solver inside Ipopt: "ours", or Ipopt's name of another.
     pub linear_solver: String,
     /// SHA-256 of the robot's file, hexadecimal.
     pub robot_sha256: String,
@@ -44,12 +44,12 @@ pub struct TextFile {
 }
 
 impl Provenance {
-    /// Of a plan for the problem in `file`.
-    pub fn of(file: &ProblemFile) -> Self {
+    /// Of a plan by `linear_solver` for the problem in `file`.
+    pub fn of(file: &ProblemFile, linear_solver: &str) -> Self {
         Self {
             version: Build::VERSION.into(),
             ipopt: ipopt::version().into(),
-            linear_solver: file.problem.solver.linear_solver.clone(),
+            linear_solver: linear_solver.into(),
             robot_sha256: fingerprint(&file.robot.text),
             problem: ProblemSource {
                 path: file.path.clone(),

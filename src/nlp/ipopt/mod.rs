@@ -6,10 +6,12 @@
 //! once Ipopt has returned.
 
 mod callbacks;
+mod choice;
 mod error;
 mod input;
 pub mod interrupt;
 mod options;
+mod ours;
 mod probe;
 mod problem;
 mod serial;
@@ -17,12 +19,16 @@ mod status;
 mod structure;
 mod timing;
 
+pub use choice::{linear_solver, why_not_ours};
 pub use error::IpoptError;
+pub use ours::{System, record};
 pub use probe::linear_solvers;
 pub use serial::serialised;
 
-use super::{Control, Iterate, Nlp, Progress, Settings, Solution, Statistics};
+use super::{Control, Iterate, Nlp, Progress, Settings, Size, Solution, Statistics, Status};
 use callbacks::Context;
+use choice::Choice;
+use ours::Session;
 use problem::Problem;
 use std::panic::resume_unwind;
 use std::time::Instant;
@@ -42,8 +48,12 @@ pub fn version() -> &'static str {
 /// Ipopt relaxes each bound b by 1e-8 max(1, |b|) (its option `bound_relax_factor`), and the result
 /// may lie that far outside.
 ///
-/// The time of [`Statistics::linear_solver`] is a sum of Ipopt's own figures, which have a
-/// resolution of 1 ms. [`Statistics::total`] does not contain the wait for another thread's solve.
+/// Where our own linear solver fails, the solve is begun again with MUMPS, and
+/// [`Statistics::fallbacks`] says so.
+///
+/// The time of [`Statistics::linear_solver`] is measured where the solver is our own; otherwise it
+/// is a sum of Ipopt's figures, which have a resolution of 1 ms. [`Statistics::total`] does not
+/// contain the wait for another thread's solve.
 ///
 /// # Errors
 /// [`IpoptError`] where the solve could not begin: a start, bounds, structure or option that
@@ -61,50 +71,104 @@ pub fn solve<N: Nlp + ?Sized>(
     input::check_start(nlp, size, settings, start)?;
     let bounds = input::Bounds::of(nlp, size)?;
     let structure = structure::Structures::of(nlp, size)?;
-    let linear_solver = options::linear_solver(settings);
-    let turn = serial::turn(&linear_solver)?;
-
-    let begin = Instant::now();
-    let mut problem = Problem::create(size, bounds)?;
-    options::apply(&mut problem, settings, &linear_solver)?;
-    let timing = if settings.timing {
-        TimingFile::attach(&mut problem)
-    } else {
-        None
+    let choice = Choice::of(settings)?;
+    let mut attempt = Attempt {
+        nlp,
+        settings,
+        start,
+        size,
+        bounds,
+        structure,
     };
-
-    let mut iterate = input::initial(start, size, settings.warm_start.is_some());
-    let mut constraints = vec![f64::NAN; size.constraints];
-    let mut objective = f64::NAN;
-    let mut context = Context::new(nlp, monitor, &structure);
-    let code = problem.solve(&mut iterate, &mut constraints, &mut objective, &mut context);
-    let record = context.finish();
-    // Ipopt closes the timing file only with the problem.
-    drop(problem);
-    let linear_time = timing.and_then(TimingFile::read).unwrap_or_default();
-    let total = begin.elapsed();
-    drop(turn);
-
-    if let Some(payload) = record.panic {
-        resume_unwind(payload);
+    let (solution, failure) = attempt.run(&choice, monitor)?;
+    let hopeless =
+        failure.is_none() || solution.status.is_solved() || solution.status == Status::Interrupted;
+    if hopeless {
+        return Ok(solution);
     }
-    let status = status::grade(code, &linear_solver)?;
-    let last = record.last;
-    Ok(Solution {
-        status,
-        objective,
-        iterate,
-        constraints,
-        statistics: Statistics {
-            iterations: last.map_or(0, |last| last.iteration),
-            barrier: last.map_or(f64::NAN, |last| last.barrier),
-            primal_infeasibility: last.map_or(f64::NAN, |last| last.primal_infeasibility),
-            dual_infeasibility: last.map_or(f64::NAN, |last| last.dual_infeasibility),
-            evaluations: record.evaluations,
-            derivatives: record.derivatives,
-            // Rounding to 1 ms may make the parts exceed the whole.
-            linear_solver: linear_time.min(total.saturating_sub(record.derivatives)),
-            total,
-        },
-    })
+    // Our linear solver could not serve: once more from the start, by what stands in.
+    let (mut second, _) = attempt.run(&Choice::fallback(), monitor)?;
+    second.statistics.derivatives += solution.statistics.derivatives;
+    second.statistics.linear_solver += solution.statistics.linear_solver;
+    second.statistics.total += solution.statistics.total;
+    second.statistics.fallbacks = 1;
+    Ok(second)
+}
+
+/// What the attempts at one solve share.
+struct Attempt<'a, N: Nlp + ?Sized> {
+    nlp: &'a mut N,
+    settings: &'a Settings,
+    start: &'a Iterate,
+    size: Size,
+    bounds: input::Bounds,
+    structure: structure::Structures,
+}
+
+impl<N: Nlp + ?Sized> Attempt<'_, N> {
+    /// One attempt, and why our linear solver could not serve where it could not.
+    fn run(
+        &mut self,
+        choice: &Choice,
+        monitor: &mut dyn FnMut(&Progress) -> Control,
+    ) -> Result<(Solution, Option<String>), IpoptError> {
+        let turn = serial::turn(&choice.name)?;
+        let begin = Instant::now();
+        let session = Session::begin(choice.real);
+        let mut problem = Problem::create(self.size, &mut self.bounds)?;
+        options::apply(&mut problem, self.settings, choice)?;
+        let ours = choice.ours.is_some();
+        let timing = if self.settings.timing && !ours {
+            TimingFile::attach(&mut problem)
+        } else {
+            None
+        };
+
+        let warm = self.settings.warm_start.is_some();
+        let mut iterate = input::initial(self.start, self.size, warm);
+        let mut constraints = vec![f64::NAN; self.size.constraints];
+        let mut objective = f64::NAN;
+        let mut context = Context::new(&mut *self.nlp, monitor, &self.structure);
+        let code = problem.solve(&mut iterate, &mut constraints, &mut objective, &mut context);
+        let record = context.finish();
+        // Ipopt closes the timing file and frees the linear solver only with the problem.
+        drop(problem);
+        let counted = session.end();
+        let linear_time = if ours && self.settings.timing {
+            counted.time
+        } else {
+            timing.and_then(TimingFile::read).unwrap_or_default()
+        };
+        let total = begin.elapsed();
+        drop(turn);
+
+        if let Some(payload) = record.panic {
+            resume_unwind(payload);
+        }
+        let status = status::grade(code, &choice.name)?;
+        let last = record.last;
+        let failure = counted.failure.or_else(|| {
+            (ours && code == ipopt_sys::Error_In_Step_Computation)
+                .then(|| "no step could be computed with it".into())
+        });
+        let solution = Solution {
+            status,
+            objective,
+            iterate,
+            constraints,
+            statistics: Statistics {
+                iterations: last.map_or(0, |last| last.iteration),
+                barrier: last.map_or(f64::NAN, |last| last.barrier),
+                primal_infeasibility: last.map_or(f64::NAN, |last| last.primal_infeasibility),
+                dual_infeasibility: last.map_or(f64::NAN, |last| last.dual_infeasibility),
+                evaluations: record.evaluations,
+                derivatives: record.derivatives,
+                // Rounding to 1 ms may make the parts exceed the whole.
+                linear_solver: linear_time.min(total.saturating_sub(record.derivatives)),
+                fallbacks: 0,
+                total,
+            },
+        };
+        Ok((solution, failure))
+    }
 }

@@ -1,9 +1,11 @@
 //! From [`Settings`] to Ipopt's options.
 
 use super::IpoptError;
+use super::choice::{Choice, library, text_option};
 use super::problem::Problem;
 use crate::nlp::{Nlp, OptionValue, Settings};
 use ipopt_sys::hsl;
+use ipopt_sys::ma97::Reached;
 use std::ffi::CString;
 
 /// Distances from its bounds a warm start is pushed to: the barrier parameter within these limits,
@@ -21,32 +23,13 @@ const PUSHES: [&str; 4] = [
 /// Largest value below which no multiplier of a bound may begin.
 const LARGEST_MULTIPLIER_PUSH: f64 = 1e-9;
 
-/// The linear solver a solve with these settings uses, in lower case as Ipopt compares names.
-pub(super) fn linear_solver(settings: &Settings) -> String {
-    text_option(settings, "linear_solver")
-        .unwrap_or(&settings.linear_solver)
-        .to_ascii_lowercase()
-}
-
-/// The last text value given to an option by name.
-fn text_option<'a>(settings: &'a Settings, wanted: &str) -> Option<&'a str> {
-    settings
-        .options
-        .iter()
-        .rev()
-        .find_map(|(name, value)| match value {
-            OptionValue::Text(text) if name.eq_ignore_ascii_case(wanted) => Some(text.as_str()),
-            _ => None,
-        })
-}
-
 /// Sets every option of a solve.
 pub(super) fn apply<N: Nlp + ?Sized>(
     problem: &mut Problem<N>,
     settings: &Settings,
-    linear_solver: &str,
+    choice: &Choice,
 ) -> Result<(), IpoptError> {
-    check_libraries(settings, linear_solver)?;
+    check_libraries(settings)?;
 
     let mut set = |name: &str, value: OptionValue| set_option(problem, name, &value);
     // Silence first: Ipopt complains on standard output about an option it refuses.
@@ -58,7 +41,7 @@ pub(super) fn apply<N: Nlp + ?Sized>(
 
     let mut set = |name: &str, value: OptionValue| set_option(problem, name, &value);
     set("print_level", integer(settings.print_level.into()))?;
-    if settings.timing {
+    if settings.timing && choice.ours.is_none() {
         set("print_timing_statistics", text("yes"))?;
     }
     set("tol", OptionValue::Real(settings.tolerance))?;
@@ -66,13 +49,18 @@ pub(super) fn apply<N: Nlp + ?Sized>(
         "max_iter",
         integer(i32::try_from(settings.max_iterations).unwrap_or(i32::MAX)),
     )?;
-    set("linear_solver", text(linear_solver))?;
+    set("linear_solver", text(choice.ipopt_name()))?;
     // Ipopt relaxes bounds by 1e-8. Moving the result back inside them, the default of 3.11, would
     // leave equality constraints violated by more than the tolerance.
     set("honor_original_bounds", text("no"))?;
-    if linear_solver == "mumps" {
+    if choice.name == "mumps" {
         // With its own choice of ordering MUMPS reports wrong inertia, and Ipopt regularises.
         set("mumps_pivot_order", integer(0))?;
+    }
+    if choice.ours.is_some() {
+        // One analysis, of the pattern alone.
+        set("ma97_order", text("amd"))?;
+        set("ma97_scaling", text("none"))?;
     }
     if let Some(barrier) = settings.warm_start {
         set("warm_start_init_point", text("yes"))?;
@@ -84,35 +72,31 @@ pub(super) fn apply<N: Nlp + ?Sized>(
         let least = barrier.min(LARGEST_MULTIPLIER_PUSH);
         set("warm_start_mult_bound_push", OptionValue::Real(least))?;
     }
-    settings
-        .options
-        .iter()
-        .try_for_each(|(name, value)| set(name, value.clone()))
+    for (name, value) in &settings.options {
+        // Ipopt does not know our names; the choice has been made above.
+        if !name.eq_ignore_ascii_case("linear_solver") {
+            set(name, value.clone())?;
+        }
+    }
+    if let Some(Reached::Library(library)) = &choice.ours {
+        // The last word on this one: there is nothing else it could mean.
+        set("hsllib", text(&library.to_string_lossy()))?;
+    }
+    Ok(())
 }
 
-/// Refuses what would end the process: Ipopt does not survive these libraries' absence.
-fn check_libraries(settings: &Settings, linear_solver: &str) -> Result<(), IpoptError> {
-    let library = text_option(settings, "hsllib").and_then(|name| CString::new(name).ok());
-    let missing = |routine| !hsl::available(routine, library.as_deref());
-    let hsl_library = || {
-        text_option(settings, "hsllib")
-            .unwrap_or("the HSL library")
-            .to_owned()
-    };
-    if linear_solver == "ma97" && missing(hsl::Routine::Ma97) {
-        return Err(IpoptError::MissingLibrary {
-            name: "linear_solver",
-            value: linear_solver.to_owned(),
-            library: hsl_library(),
-            instead: "\"mumps\"",
-        });
-    }
+/// Refuses what would end the process: Ipopt does not survive this library's absence.
+fn check_libraries(settings: &Settings) -> Result<(), IpoptError> {
     let scaling = text_option(settings, "nlp_scaling_method").unwrap_or_default();
-    if scaling.eq_ignore_ascii_case("equilibration-based") && missing(hsl::Routine::Mc19) {
+    if scaling.eq_ignore_ascii_case("equilibration-based")
+        && !hsl::available(hsl::Routine::Mc19, library(settings).as_deref())
+    {
         return Err(IpoptError::MissingLibrary {
             name: "nlp_scaling_method",
             value: scaling.to_owned(),
-            library: hsl_library(),
+            library: text_option(settings, "hsllib")
+                .unwrap_or("the HSL library")
+                .to_owned(),
             instead: "\"gradient-based\"",
         });
     }

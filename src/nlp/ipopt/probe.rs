@@ -1,10 +1,11 @@
 //! Which linear solvers this machine's Ipopt can use.
 
-use super::solve;
+use super::{linear_solver, solve};
 use crate::nlp::{Control, Iterate, Nlp, Settings, Size, Status, Undefined};
 
-/// Every linear solver some Ipopt from 3.11 to 3.14 knows by name.
-const CANDIDATES: [&str; 10] = [
+/// Ours, and every linear solver some Ipopt from 3.11 to 3.14 knows by name.
+const CANDIDATES: [&str; 11] = [
+    "ours",
     "mumps",
     "ma27",
     "ma57",
@@ -17,7 +18,7 @@ const CANDIDATES: [&str; 10] = [
     "wsmp",
 ];
 
-/// The linear solvers that solve a tiny programme here, by Ipopt's names.
+/// The linear solvers that solve a tiny programme here: "ours", and others by Ipopt's names.
 ///
 /// Ipopt takes the name of any solver it was built to load later, so that only a solve tells.
 /// This loads the libraries it finds, takes some milliseconds a solver, and prints nothing of
@@ -26,15 +27,17 @@ pub fn linear_solvers() -> Vec<&'static str> {
     CANDIDATES.into_iter().filter(|name| works(name)).collect()
 }
 
-fn works(linear_solver: &str) -> bool {
+fn works(name: &str) -> bool {
     let settings = Settings {
-        linear_solver: linear_solver.into(),
+        linear_solver: name.into(),
         timing: false,
         ..Settings::default()
     };
     let start = Iterate::primal(vec![0.0, 0.0]);
-    solve(&mut Tiny, &settings, &start, &mut |_| Control::Continue)
-        .is_ok_and(|solution| solution.status == Status::Solved)
+    solve(&mut Tiny, &settings, &start, &mut |_| Control::Continue).is_ok_and(|solution| {
+        let served = solution.statistics.fallbacks == 0;
+        solution.status == Status::Solved && served && linear_solver(&settings) == name
+    })
 }
 
 /// Minimise x² + y² subject to x + y = 1.

@@ -18,7 +18,7 @@ pub(super) struct Problem<N: Nlp + ?Sized> {
 }
 
 impl<N: Nlp + ?Sized> Problem<N> {
-    pub(super) fn create(size: Size, mut bounds: Bounds) -> Result<Self, IpoptError> {
+    pub(super) fn create(size: Size, bounds: &mut Bounds) -> Result<Self, IpoptError> {
         let variables = count(size.variables, "variables")?;
         let constraints = count(size.constraints, "constraints")?;
         let jacobian = count(size.jacobian_nonzeros, "nonzeros of the Jacobian")?;

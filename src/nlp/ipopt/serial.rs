@@ -12,10 +12,12 @@ thread_local! {
 
 /// Whether solves with this linear solver wait for each other.
 ///
-/// Two concurrent solves with MUMPS crash: it has Fortran module variables. HSL_MA97 has no
-/// state outside its arguments; of the rest nothing is known, so they wait too.
+/// Two concurrent solves with MUMPS crash: it has Fortran module variables. Ours and HSL_MA97 have
+/// no state outside their arguments; of the rest nothing is known, so they wait too.
 pub fn serialised(linear_solver: &str) -> bool {
-    !linear_solver.eq_ignore_ascii_case("ma97")
+    !["ours", "ma97"]
+        .iter()
+        .any(|name| linear_solver.eq_ignore_ascii_case(name))
 }
 
 /// The right to solve, where there is need of one; given back when dropped.

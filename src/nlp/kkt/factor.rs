@@ -271,7 +271,10 @@ impl Factors {
             for (p, row) in (column..from.columns).enumerate() {
                 panel[target * ld + target + p] += values[row];
             }
-            for (i, value) in values[from_rows..from_rows + child.border].iter().enumerate() {
+            for (i, value) in values[from_rows..from_rows + child.border]
+                .iter()
+                .enumerate()
+            {
                 let row = self.map[i] as usize;
                 if i < inside {
                     panel[row * ld + target] += value;

@@ -122,9 +122,7 @@ impl<'a> Quotient<'a> {
         let variables: Vec<Vec<u32>> = (0..nodes)
             .map(|node| {
                 let neighbours = graph.neighbours(node).iter().copied();
-                neighbours
-                    .filter(|&other| !dense[other as usize])
-                    .collect()
+                neighbours.filter(|&other| !dense[other as usize]).collect()
             })
             .collect();
         let mut quotient = Self {

@@ -6,12 +6,10 @@ use super::Pattern;
 ///
 /// Multipliers have no diagonal to speak of, so that each needs a variable beside it. Rarest
 /// variables first: a slack stands in one row only, a control in few, a state in many.
-pub(super) fn partners(pattern: &Pattern, primal: usize) -> Vec<u32> {
+pub(super) fn partners(pattern: &Pattern) -> Vec<u32> {
     let n = pattern.len();
+    let primal = first_multiplier(pattern);
     let mut partner: Vec<u32> = (0..n as u32).collect();
-    if primal >= n {
-        return partner;
-    }
     // Rows of multipliers each variable stands in, and variables of each such row.
     let mut rows_of = vec![0_u32; primal];
     let mut start = vec![0_u32; n - primal + 1];
@@ -51,4 +49,12 @@ pub(super) fn partners(pattern: &Pattern, primal: usize) -> Vec<u32> {
         }
     }
     partner
+}
+
+/// Start of the longest run of last unknowns that are not connected with each other.
+///
+/// In the systems of an interior-point method these are the multipliers, which come last.
+fn first_multiplier(pattern: &Pattern) -> usize {
+    let links = pattern.entries().filter(|(row, column)| row != column);
+    links.map(|(_, column)| column + 1).max().unwrap_or(0)
 }

@@ -170,7 +170,11 @@ impl Panel<'_> {
     /// Entries (k, k), (k + 1, k) and (k + 1, k + 1).
     fn corner(&self, k: usize) -> [f64; 3] {
         let first = k * self.ld + k;
-        [self.a[first], self.a[first + 1], self.a[first + self.ld + 1]]
+        [
+            self.a[first],
+            self.a[first + 1],
+            self.a[first + self.ld + 1],
+        ]
     }
 
     /// Makes row and column `k` zero: rounding error may not spread.
@@ -229,7 +233,10 @@ impl Panel<'_> {
         }
         let mut without = |column: usize| {
             let column = &mut self.a[column * ld..(column + 1) * ld];
-            let taken = [std::mem::take(&mut column[t]), std::mem::take(&mut column[r])];
+            let taken = [
+                std::mem::take(&mut column[t]),
+                std::mem::take(&mut column[r]),
+            ];
             let most = largest(&column[from..]);
             [column[t], column[r]] = taken;
             most
@@ -302,7 +309,12 @@ impl Panel<'_> {
                 inverse[0] * x + inverse[1] * y,
                 inverse[1] * x + inverse[2] * y,
             ];
-            axpy2::<FMA>(factors, &first[from..], &second[from..], &mut column[from..]);
+            axpy2::<FMA>(
+                factors,
+                &first[from..],
+                &second[from..],
+                &mut column[from..],
+            );
             column[k] = 0.0;
             column[k + 1] = 0.0;
         }
@@ -322,7 +334,10 @@ impl Panel<'_> {
         let ld = self.ld;
         let (left, right) = self.a.split_at_mut(end * ld);
         let rows = done / 4 * 4;
-        for (tile, columns) in right[..(self.columns - end) * ld].chunks_mut(4 * ld).enumerate() {
+        for (tile, columns) in right[..(self.columns - end) * ld]
+            .chunks_mut(4 * ld)
+            .enumerate()
+        {
             let j = end + 4 * tile;
             // Four rows of D Lᵀ, which may reach into the padding.
             subtract::<FMA>(

@@ -7,7 +7,9 @@ pub enum PatternError {
     #[error("column {0} of the matrix does not start where the one before it ends")]
     Starts(usize),
     /// An entry above the diagonal, or below the last row.
-    #[error("the entry at row {row}, column {column} is not in the lower triangle of order {order}")]
+    #[error(
+        "the entry at row {row}, column {column} is not in the lower triangle of order {order}"
+    )]
     Entry {
         /// Row of the entry.
         row: usize,

@@ -54,11 +54,10 @@ pub struct Symbolic {
 impl Symbolic {
     /// Analyses `pattern`.
     ///
-    /// `primal` says how many leading unknowns are variables of a programme; the rest are
-    /// multipliers, whose diagonal is zero or small. Without it no pivot is foreseen to be of
-    /// order two; they are found all the same.
-    pub fn new(pattern: Pattern, primal: Option<usize>) -> Self {
-        let partner = pairs::partners(&pattern, primal.unwrap_or(pattern.len()));
+    /// Where it is that of an interior-point method, its multipliers last, pivots of order two are
+    /// foreseen; in other matrices they are found all the same.
+    pub fn new(pattern: Pattern) -> Self {
+        let partner = pairs::partners(&pattern);
         let graph = Graph::new(&pattern, &partner);
         let group = vec![0; graph.len()];
         let fronts = ordering::fronts(&graph, &group);
