@@ -27,6 +27,8 @@ pub(super) enum Failure {
     Plan { path: String, source: PlanError },
     #[error("{path}: the solution cannot be written: {message}")]
     Format { path: String, message: String },
+    #[error("{0}")]
+    Usage(String),
     #[error("standard output cannot be written: {0}")]
     Terminal(std::io::Error),
     #[error("no linear solver works with this Ipopt; install one, such as MUMPS")]
@@ -37,7 +39,8 @@ impl Failure {
     /// 2 where the input is to blame, else 1.
     pub(super) fn code(&self) -> u8 {
         match self {
-            Self::Config(_)
+            Self::Usage(_)
+            | Self::Config(_)
             | Self::Solution(_)
             | Self::Start { .. }
             | Self::Verify { .. }

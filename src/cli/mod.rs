@@ -1,9 +1,15 @@
 //! The command line; one file a command.
 
 mod check;
+mod compare;
+mod compare_figure;
+mod compare_report;
 mod doctor;
 mod failure;
 mod interrupt;
+mod pareto;
+mod pareto_figure;
+mod pareto_report;
 mod plan;
 mod progress;
 mod show;
@@ -46,6 +52,8 @@ enum Command {
     Plan(plan::Arguments),
     Check(check::Arguments),
     Table2(table2::Arguments),
+    Compare(compare::Arguments),
+    Pareto(pareto::Arguments),
     Verify(verify::Arguments),
     Simulate(simulate::Arguments),
     Doctor(doctor::Arguments),
@@ -60,6 +68,8 @@ pub fn run() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Table2(arguments) => table2::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Pareto(arguments) => pareto::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),

@@ -4,10 +4,10 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::{Outcome, interrupt, terminal};
 use crate::config::{ConfigError, Overrides, ProblemFile};
-use crate::planner::{Plan, Planner, Status};
-use crate::refine::Method;
+use crate::planner::{Method, Plan, Planner, Status};
 use crate::report::{self, OutputFolder, Provenance};
 use crate::verify::{Verification, verify};
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -40,15 +40,27 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
-/// A method by its name.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum MethodName {
-    /// Adaptive Radau pseudospectral method
-    #[value(name = "a-rpm")]
-    Adaptive,
-    /// Global Radau pseudospectral method
-    #[value(name = "rpm")]
-    Global,
+/// A planner by its name.
+#[derive(Debug, Clone, Copy)]
+struct MethodName(Method);
+
+impl ValueEnum for MethodName {
+    fn value_variants<'a>() -> &'a [Self] {
+        const NAMES: [MethodName; Method::ALL.len()] = {
+            let mut names = [MethodName(Method::ALL[0]); Method::ALL.len()];
+            let mut i = 0;
+            while i < names.len() {
+                names[i] = MethodName(Method::ALL[i]);
+                i += 1;
+            }
+            names
+        };
+        &NAMES
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()).help(self.0.describe()))
+    }
 }
 
 impl Arguments {
@@ -57,11 +69,9 @@ impl Arguments {
         for assignment in &self.set {
             overrides.set(assignment)?;
         }
-        if let Some(method) = self.method {
-            let name = match method {
-                MethodName::Adaptive => Method::Adaptive.name(),
-                MethodName::Global => Method::Global.name(),
-            };
+        // The other planners change nothing of the problem.
+        if let Some(MethodName(Method::Collocation(method))) = self.method {
+            let name = method.name();
             overrides.text(&format!("--method {name}"), "mesh.method", name);
         }
         if let Some(tolerance) = self.tolerance {
@@ -93,7 +103,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 
     interrupt::listen();
     let mut progress = Progress::start(&file.problem.name, arguments.quiet);
-    let plan = Planner::new().plan_with(&file.problem, start.as_ref(), &mut |event| {
+    let of_file = Method::Collocation(file.problem.mesh.method);
+    let method = arguments
+        .method
+        .map_or(of_file, |MethodName(method)| method);
+    let plan = Planner::new().plan_by(method, &file.problem, start.as_ref(), &mut |event| {
         progress.show(event)
     });
     progress.finish();
@@ -127,7 +141,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 }
 
 /// Writes the files of a plan; the text of `solution.json` and the paths are returned.
-fn write(
+pub(super) fn write(
     file: &ProblemFile,
     plan: &Plan,
     checked: Option<&Verification>,

@@ -1,6 +1,7 @@
 //! The live line on a terminal.
 
 use crate::nlp::Control;
+use crate::nlp::ipopt::interrupt;
 use crate::planner::Event;
 use crate::refine;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -36,10 +37,21 @@ impl Progress {
         }
     }
 
+    /// Goes on under another title.
+    pub(super) fn retitle(&mut self, title: &str) {
+        self.title = title.into();
+    }
+
     /// Shows `event`.
     pub(super) fn show(&mut self, event: &Event<'_>) -> Control {
-        if self.bar.is_hidden() {
-            return Control::Continue;
+        // Ipopt polls for Ctrl-C itself.
+        let stop = matches!(event, Event::Step { .. }) && interrupt::requested();
+        if self.bar.is_hidden() || stop {
+            return if stop {
+                Control::Stop
+            } else {
+                Control::Continue
+            };
         }
         let message = match event {
             Event::Refinement(refine::Event::Mesh {
@@ -68,6 +80,7 @@ impl Progress {
                     format!("no solution; which limits cannot hold? start {start}, {of} at most");
                 self.mesh.clone()
             }
+            Event::Step { step, of } => format!("step {step} of {of}"),
         };
         self.bar.set_message(format!("{}: {message}", self.title));
         Control::Continue

@@ -3,8 +3,8 @@
 use super::failure::Failure;
 use super::show::rounded;
 use crate::nlp::ipopt;
-use crate::planner::{Plan, Status};
-use crate::refine::Method;
+use crate::planner::{Method, Plan, Status};
+use crate::refine;
 use crate::report::{Build, to_json};
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
@@ -89,8 +89,8 @@ impl Row {
             max_error: finite(plan.max_error),
             objective: finite(plan.objective),
             published: published.map(|(_, global, adaptive)| match plan.method {
-                Method::Global => *global,
-                Method::Adaptive => *adaptive,
+                Method::Collocation(refine::Method::Global) => *global,
+                _ => *adaptive,
             }),
         })
     }

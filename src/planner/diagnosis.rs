@@ -276,7 +276,7 @@ fn strip(trajectory: &Discretization, states: usize) -> Discretization {
 }
 
 /// Every bound of `groups` that `trajectory` exceeds.
-fn findings<Sp: Space>(
+pub(super) fn findings<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
     groups: &[LimitGroup],
@@ -412,8 +412,15 @@ fn widened(bound: Interval, reached: Interval) -> Interval {
     }
 }
 
-/// One sentence; limits of the same bound on the same component share their part of it.
+/// One sentence about what cannot hold.
 fn summary(limits: &[LimitFinding]) -> String {
+    let verb = "cannot hold; the smallest bound that was found to work is";
+    summary_with(limits, verb)
+}
+
+/// One sentence that says of every limit, by `verb`, what stands to the bound that would hold;
+/// limits of the same bound on the same component share their part of it.
+pub(super) fn summary_with(limits: &[LimitFinding], verb: &str) -> String {
     let mut parts: Vec<(Vec<String>, &LimitFinding)> = Vec::new();
     for finding in limits {
         let limit = format!("{} = {}", finding.key, shown(finding, &finding.bound));
@@ -429,7 +436,7 @@ fn summary(limits: &[LimitFinding]) -> String {
     }
     let part = |(keys, finding): &(Vec<String>, &LimitFinding)| {
         format!(
-            "{} ({}) cannot hold; the smallest bound that was found to work is {}",
+            "{} ({}) {verb} {}",
             keys.join(" and "),
             finding.component,
             shown(finding, &finding.smallest_bound)

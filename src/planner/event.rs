@@ -14,4 +14,11 @@ pub enum Event<'a> {
         /// Number of starts.
         of: usize,
     },
+    /// A planner that works its way along the motion takes a step.
+    Step {
+        /// Counted from 1.
+        step: usize,
+        /// Number of steps.
+        of: usize,
+    },
 }

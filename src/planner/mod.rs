@@ -1,27 +1,40 @@
 //! Planners: from a [`Problem`] to a [`Plan`].
 
+mod acceleration_qp;
+mod base_rate;
+mod cost_terms;
 mod diagnosis;
 mod event;
 mod free_floating;
+pub mod front;
 mod goal;
 mod guess;
+mod joint_motion;
 mod keep_out;
+mod matpm;
+mod method;
 mod momentum;
 mod plan;
 mod problem;
 mod radau;
+mod reaction_null_space;
 mod replan;
 mod straight_line;
+mod straight_quintic;
 mod trajectory;
 mod turn;
 
 pub use crate::refine::Start;
+pub use base_rate::REGULARIZATION as BASE_RATE_REGULARIZATION;
+pub use cost_terms::{CostTerms, JointEffort};
 pub use event::Event;
 pub use free_floating::FreeFloating;
 pub use goal::{EndEffectorGoal, GoalFrame};
 pub use keep_out::{KeepOut, Obstacle, Sphere};
+pub use method::Method;
 pub use momentum::Momentum;
 pub use plan::{Diagnosis, LimitFinding, Metrics, Plan, Status, Timing, Trajectory};
 pub use problem::{Cost, Limits, Problem, ProblemError, Task};
 pub use radau::{PlanError, Planner, plan};
 pub use straight_line::{StraightLine, straight_line};
+pub use trajectory::resampled;

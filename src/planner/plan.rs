@@ -1,9 +1,10 @@
 //! What a planner returns.
 
+use super::Method;
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::nlp;
 use crate::ocp::Interval;
-use crate::refine::{Method, Record};
+use crate::refine::Record;
 use crate::transcription::Discretization;
 use std::time::Duration;
 
@@ -122,13 +123,13 @@ pub struct Plan {
     pub status: Status,
     /// Method used.
     pub method: Method,
-    /// Cost J of (14).
+    /// Cost J of (14), whatever cost the method itself knows.
     pub objective: f64,
     /// Tolerance asked for.
     pub tolerance: f64,
     /// Largest error (28) on the final mesh.
     pub max_error: f64,
-    /// One record a mesh iteration.
+    /// One record a mesh iteration, with the method's own cost; none where nothing is optimised.
     pub iterations: Vec<Record>,
     /// The trajectory on its mesh: states [η, θ, θ̇], controls u.
     pub discretization: Discretization,

@@ -4,7 +4,8 @@ use super::guess::{JointPath, along};
 use super::replan::bend;
 use super::trajectory::{metrics, trajectory};
 use super::{
-    Event, FreeFloating, Plan, Problem, ProblemError, Status, Timing, Trajectory, diagnosis, turn,
+    Event, FreeFloating, Method, Plan, Problem, ProblemError, Status, Timing, Trajectory,
+    diagnosis, turn,
 };
 use crate::collocation::MeshError;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
@@ -189,7 +190,7 @@ impl Planner {
         ];
         Ok(Plan {
             status,
-            method: problem.mesh.method,
+            method: Method::Collocation(problem.mesh.method),
             objective: outcome.objective,
             tolerance: problem.mesh.tolerance,
             max_error,

@@ -1,7 +1,8 @@
 //! The planned motion at the nodes, and its figures.
 
 use super::free_floating::torques;
-use super::{FreeFloating, Metrics, Trajectory};
+use super::{FreeFloating, Metrics, Problem, Trajectory};
+use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
@@ -95,5 +96,14 @@ pub(super) fn metrics(trajectory: &Trajectory) -> Metrics {
         final_base_displacement: distance(&last(&trajectory.base_position)),
         peak_joint_velocity: peak(&trajectory.joint_velocity),
         peak_joint_torque: peak(&trajectory.joint_torque),
+    }
+}
+
+/// A planned motion at the nodes of another mesh, as for a smooth curve.
+pub fn resampled(problem: &Problem, plan: &Discretization, mesh: Mesh) -> Trajectory {
+    let plan = plan.resample(mesh);
+    match FreeFloating::planar(problem) {
+        Some(planar) => trajectory(&planar, &plan),
+        None => trajectory(&FreeFloating::spatial(problem), &plan),
     }
 }

@@ -4,7 +4,7 @@ use super::format::{centimetres, degrees, list, rotation, seconds};
 use super::lines::Lines;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
-use crate::planner::{Plan, Problem, Status};
+use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Problem, Status};
 use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
@@ -32,8 +32,7 @@ pub fn summary(
         lines.add("warning", warning);
     }
     let time = &plan.timing;
-    lines.add(
-        "time",
+    let shares = || {
         format!(
             "{}: derivatives {}, linear solver {}, rest of Ipopt {}, set-up {}",
             seconds(time.total),
@@ -41,19 +40,33 @@ pub fn summary(
             seconds(time.linear_solver),
             seconds(time.ipopt_other),
             seconds(time.setup)
-        ),
-    );
+        )
+    };
+    let spent = match plan.method.optimises() {
+        true => shares(),
+        false => seconds(time.total),
+    };
+    lines.add("time", spent);
     lines.files(files);
     let heading = match (plan.status, &plan.diagnosis) {
         (Status::Infeasible, Some(diagnosis)) => format!(
-            "{}: infeasible ({})\n\n{}\n\nThe motion below has those limits relaxed.",
+            "{}: infeasible ({})\n\n{}\n\n{}",
             problem.name,
             plan.method.name(),
-            diagnosis.summary
+            diagnosis.summary,
+            if plan.method.optimises() {
+                "The motion below has those limits relaxed."
+            } else {
+                "The motion below is the one this planner has to offer."
+            }
         ),
         _ => verdict(problem, plan),
     };
-    format!("{heading}\n\n{}\n{}", iterations(plan), lines.finish())
+    let lines = lines.finish();
+    if plan.iterations.is_empty() {
+        return format!("{heading}\n\n{lines}");
+    }
+    format!("{heading}\n\n{}\n{lines}", iterations(plan))
 }
 
 fn quality(lines: &mut Lines, plan: &Plan) {
@@ -66,6 +79,12 @@ fn quality(lines: &mut Lines, plan: &Plan) {
     );
     let size = format!("{} segments, {} points", mesh.segments(), mesh.points());
     lines.add("cost J", format!("{:.9}", plan.objective));
+    if plan.method == Method::BaseRate {
+        let own = format!(
+            "of the problem; above the planner's own, ∫‖η̇‖² + {BASE_RATE_REGULARIZATION:?} ∫‖u‖²"
+        );
+        lines.add("", own);
+    }
     lines.add("largest error", error);
     lines.add("mesh", size);
 }

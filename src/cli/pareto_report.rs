@@ -1,0 +1,144 @@
+//! The trade-off curve as Markdown and JSON.
+
+use super::failure::Failure;
+use crate::nlp::ipopt;
+use crate::planner::JointEffort;
+use crate::planner::front::FrontPoint;
+use crate::report::{Build, to_json};
+use comfy_table::{CellAlignment, Table, presets};
+use serde::Serialize;
+
+/// One point of the curve; SI units and radians.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Row {
+    /// On the weights of the base.
+    pub factor: f64,
+    pub status: &'static str,
+    /// Weighted terms of the cost about the base, without the factor.
+    pub base_motion: f64,
+    /// Weighted terms of the cost about the joints.
+    pub joint_effort: f64,
+    pub max_base_attitude: f64,
+    pub final_base_attitude: f64,
+    pub max_base_displacement: f64,
+    pub final_base_displacement: f64,
+    pub base_rate_integral: f64,
+    pub control_integral: f64,
+    pub torque_integral: f64,
+    pub peak_joint_velocity: f64,
+    pub peak_joint_torque: f64,
+    pub meshes: usize,
+    pub nlp_iterations: u32,
+    pub points: usize,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+impl Row {
+    /// The row of one point.
+    pub(super) fn of(point: &FrontPoint) -> Self {
+        let plan = &point.plan;
+        let effort = JointEffort::of(&plan.trajectory, &plan.discretization.mesh);
+        let metrics = &plan.metrics;
+        Self {
+            factor: point.factor,
+            status: plan.status.name(),
+            base_motion: point.base,
+            joint_effort: point.joints,
+            max_base_attitude: metrics.max_base_attitude,
+            final_base_attitude: metrics.final_base_attitude,
+            max_base_displacement: metrics.max_base_displacement,
+            final_base_displacement: metrics.final_base_displacement,
+            base_rate_integral: effort.base_rate,
+            control_integral: effort.control,
+            torque_integral: effort.torque,
+            peak_joint_velocity: metrics.peak_joint_velocity,
+            peak_joint_torque: metrics.peak_joint_torque,
+            meshes: plan.iterations.len(),
+            nlp_iterations: plan.iterations.iter().map(|i| i.nlp_iterations).sum(),
+            points: plan.discretization.mesh.points(),
+            seconds: plan.timing.total.as_secs_f64(),
+        }
+    }
+
+    /// Whether the point belongs to the curve.
+    pub(super) fn is_solved(&self) -> bool {
+        self.status == "solved"
+    }
+}
+
+/// The table.
+pub(super) fn markdown(name: &str, rows: &[Row], notes: &[String]) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header([
+        "factor on the base",
+        "status",
+        "base motion B",
+        "joint effort E",
+        "attitude max / °",
+        "end / °",
+        "displacement end / cm",
+        "∫‖u‖²",
+        "∫‖τ‖²",
+        "Ipopt",
+        "time / s",
+    ]);
+    for row in rows {
+        table.add_row([
+            format!("{:.3e}", row.factor),
+            row.status.replace('_', " "),
+            format!("{:.4e}", row.base_motion),
+            format!("{:.4e}", row.joint_effort),
+            format!("{:.3}", row.max_base_attitude.to_degrees()),
+            format!("{:.3}", row.final_base_attitude.to_degrees()),
+            format!("{:.3}", 100.0 * row.final_base_displacement),
+            format!("{:.3e}", row.control_integral),
+            format!("{:.3e}", row.torque_integral),
+            row.nlp_iterations.to_string(),
+            format!("{:.3}", row.seconds),
+        ]);
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    let mut text = format!(
+        "`{name}`: base motion against joint effort.\n\n{table}\n\n\
+         B and E are the terms of the problem's cost about the base and about the joints; every\n\
+         plan minimises factor·B + E.\n"
+    );
+    for note in notes {
+        text.push_str(&format!("- {note}\n"));
+    }
+    text.push_str(&format!(
+        "ffsm-ipopt {}, Ipopt {}.\n",
+        Build::VERSION,
+        ipopt::version()
+    ));
+    text
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    version: &'static str,
+    ipopt: &'static str,
+    problem: &'a str,
+    notes: &'a [String],
+    rows: &'a [Row],
+}
+
+/// The rows as one JSON document.
+pub(super) fn json(name: &str, rows: &[Row], notes: &[String]) -> Result<String, Failure> {
+    let document = Document {
+        schema: 1,
+        version: Build::VERSION,
+        ipopt: ipopt::version(),
+        problem: name,
+        notes,
+        rows,
+    };
+    to_json(&document).map_err(|error| Failure::Format {
+        path: "pareto".into(),
+        message: error.to_string(),
+    })
+}
