@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 clean
+.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 figures reproduction clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -47,6 +47,12 @@ fresh: ## run the demo and the tests in a new Debian 12 (root, debootstrap)
 
 table2: ## compute the comparison of the methods (Table 2)
 	cargo run --release --locked --bin ffsm-ipopt -- table2
+
+figures: ## draw the figures of the paper from own runs
+	cargo run --release --locked --bin ffsm-ipopt -- figures
+
+reproduction: ## compute all of the paper again and write docs/reproduction.md
+	scripts/reproduction.sh
 
 clean: ## remove what was built and computed
 	cargo clean

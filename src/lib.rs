@@ -11,6 +11,7 @@ pub mod planner;
 pub mod plot;
 pub mod refine;
 pub mod report;
+pub mod reproduction;
 pub mod simulate;
 pub mod transcription;
 pub mod verify;

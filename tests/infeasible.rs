@@ -2,12 +2,10 @@
 
 mod problems;
 
-use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
-use ffsm_ipopt::dynamics::space::Planar;
-use ffsm_ipopt::dynamics::{Data, Tree};
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Problem, Status, plan};
+use ffsm_ipopt::reproduction::bounds::{Connection, Grid};
 use std::f64::consts::PI;
 
 #[test]
@@ -37,11 +35,15 @@ fn the_published_case_names_the_base_attitude_and_the_smallest_bound() {
         .upper
         .max(end.smallest_bound.upper)
         .to_degrees();
-    let bound = smallest_bound_by_dynamic_programming().to_degrees();
+    let grid = Grid::new(&problems::published(), 61).expect("a planar arm of two joints");
+    let bound = grid.smallest_bound().to_degrees();
     assert!(
         (bound - 28.5).abs() < 0.3,
         "dynamic programming finds {bound}°"
     );
+    // Without a bound along the path the published one at t_f is just out of reach.
+    let [_, nearest] = grid.reachable(f64::INFINITY).map(f64::to_degrees);
+    assert!((-17.0..-14.0).contains(&nearest), "{nearest}°");
     assert!(
         smallest > bound - 0.2,
         "{smallest}° is below what is possible, {bound}°"
@@ -134,96 +136,53 @@ fn a_limit_on_the_rotation_angle_is_named_in_degrees() {
     );
 }
 
-/// Smallest bound on |η| along the path for which the goal can be reached in time, the joints
-/// moving at up to 0.9 rad/s without limits on acceleration.
-///
-/// On a grid of joint angles, one step moves each joint by one cell at most; the range of base
-/// attitudes that can be reached within the bound is carried along. A lower bound, up to the
-/// grid's error: what is left out only helps.
-fn smallest_bound_by_dynamic_programming() -> f64 {
-    let (mut low, mut high) = (10.0_f64.to_radians(), 40.0_f64.to_radians());
-    let grid = Grid::new(61);
-    for _ in 0..9 {
-        let middle = 0.5 * (low + high);
-        if grid.reaches(middle) {
-            high = middle
-        } else {
-            low = middle
-        }
+#[test]
+fn the_curvature_is_that_of_small_loops() {
+    let connection = Connection::new(&problems::two_link()).unwrap();
+    // Turn of the base along a straight leg, Simpson's rule.
+    let leg = |from: [f64; 2], to: [f64; 2]| {
+        let along = |part: f64| {
+            let theta = [0, 1].map(|i| from[i] + part * (to[i] - from[i]));
+            let [a, b] = connection.coefficients(theta);
+            a * (to[0] - from[0]) + b * (to[1] - from[1])
+        };
+        (along(0.0) + 4.0 * along(0.5) + along(1.0)) / 6.0
+    };
+    let h = 0.01;
+    for theta in [[0.0, 0.0], [0.4, -1.1], [-1.3, 0.7], [1.5, 1.5]] {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[a, b]| [theta[0] + 0.5 * h * a, theta[1] + 0.5 * h * b]);
+        let round: f64 = (0..4).map(|k| leg(corners[k], corners[(k + 1) % 4])).sum();
+        let curvature = connection.curvature(theta);
+        assert!(
+            (round / (h * h) - curvature).abs() < 1e-5,
+            "{theta:?}: {} against {curvature}",
+            round / (h * h)
+        );
     }
-    high
+    // One joint alone cannot enclose an area, and three are another problem.
+    assert!(Connection::new(&problems::two_link().in_space()).is_none());
 }
 
-const MOVES: [[isize; 2]; 9] = [
-    [0, 0],
-    [0, 1],
-    [0, -1],
-    [1, 0],
-    [-1, 0],
-    [1, 1],
-    [1, -1],
-    [-1, 1],
-    [-1, -1],
-];
-
-struct Grid {
-    n: usize,
-    steps: usize,
-    /// Turn of the base for each move that ends at a cell.
-    turn: Vec<[f64; 9]>,
-}
-
-impl Grid {
-    fn new(n: usize) -> Self {
-        let cell = PI / (n - 1) as f64;
-        let tree = Tree::<Planar>::planar(&problems::two_link()).unwrap();
-        let mut data = Data::<Planar, f64>::new(&tree);
-        let angle = |i: usize| -0.5 * PI + i as f64 * cell;
-        let mut turn = Vec::new();
-        for i in 0..n {
-            for j in 0..n {
-                turn.push(MOVES.map(|[a, b]| {
-                    let (a, b) = (a as f64 * cell, b as f64 * cell);
-                    tree.kinematics(&[angle(i) - 0.5 * a, angle(j) - 0.5 * b], &mut data);
-                    tree.momentum(&mut data);
-                    tree.base_rate(&[a, b], &mut data);
-                    data.base_rate.x.value()
-                }));
-            }
-        }
-        Self {
-            n,
-            steps: (20.0 * 0.9 / cell) as usize,
-            turn,
-        }
-    }
-
-    fn reaches(&self, bound: f64) -> bool {
-        let n = self.n as isize;
-        let nothing = [f64::INFINITY, f64::NEG_INFINITY];
-        let cell = |angle: f64| ((angle / PI + 0.5) * (n - 1) as f64).round() as usize;
-        let index = |i: usize, j: usize| i * self.n + j;
-        let mut range = vec![nothing; self.n * self.n];
-        range[index(cell(0.0), cell(0.0))] = [0.0, 0.0];
-        for _ in 0..self.steps {
-            let mut next = vec![nothing; range.len()];
-            for (k, reached) in next.iter_mut().enumerate() {
-                let (i, j) = (k as isize / n, k as isize % n);
-                for ([a, b], turn) in MOVES.iter().zip(self.turn[k]) {
-                    let (from_i, from_j) = (i - a, j - b);
-                    if !(0..n).contains(&from_i) || !(0..n).contains(&from_j) {
-                        continue;
-                    }
-                    let [low, high] = range[(from_i * n + from_j) as usize].map(|eta| eta + turn);
-                    if low <= bound && high >= -bound {
-                        reached[0] = reached[0].min(low.max(-bound));
-                        reached[1] = reached[1].max(high.min(bound));
-                    }
-                }
-            }
-            range = next;
-        }
-        let [low, high] = range[index(cell(PI / 6.0), cell(PI / 3.0))];
-        low <= high
-    }
+#[test]
+fn loops_within_the_joint_limits_gain_little() {
+    let connection = Connection::new(&problems::two_link()).unwrap();
+    let half = 0.5 * PI;
+    let coarse = connection.over([-half; 2], [half; 2], 60);
+    let fine = connection.over([-half; 2], [half; 2], 120);
+    assert!((fine.largest - 0.156).abs() < 5e-4, "{fine:?}");
+    assert!(coarse.largest <= fine.largest && fine.parts[0] < 10_f64.to_radians());
+    // Stokes over the whole box: around its edges, by the trapezoidal rule.
+    let n = 2000;
+    let edge = |fixed: usize, at: f64| -> f64 {
+        let value = |k: usize| {
+            let mut theta = [at; 2];
+            theta[1 - fixed] = -half + PI * k as f64 / n as f64;
+            connection.coefficients(theta)[1 - fixed]
+        };
+        let sum: f64 = (0..n).map(|k| 0.5 * (value(k) + value(k + 1))).sum();
+        sum * PI / n as f64
+    };
+    let around = edge(1, -half) + edge(0, half) - edge(1, half) - edge(0, -half);
+    assert!((fine.box_loop - around).abs() < 1e-4, "{fine:?}, {around}");
 }

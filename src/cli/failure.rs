@@ -1,9 +1,11 @@
 //! What keeps a command from being carried out, and the exit status it ends with.
 
+use super::Outcome;
 use crate::config::{ConfigError, ProblemFile};
 use crate::nlp::ipopt::IpoptError;
 use crate::planner::PlanError;
 use crate::report::{OutputError, SolutionError};
+use crate::reproduction::ReproductionError;
 use crate::simulate::SimulateError;
 use crate::verify::VerifyError;
 use std::path::Path;
@@ -29,6 +31,8 @@ pub(super) enum Failure {
     Format { path: String, message: String },
     #[error("{0}")]
     Usage(String),
+    #[error(transparent)]
+    Reproduction(#[from] ReproductionError),
     #[error("standard output cannot be written: {0}")]
     Terminal(std::io::Error),
     #[error("no linear solver works with this Ipopt; install one, such as MUMPS")]
@@ -49,6 +53,8 @@ impl Failure {
             Self::Output(OutputError::File { .. } | OutputError::Figure { .. }) => 1,
             Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,
             Self::NoLinearSolver => 1,
+            Self::Reproduction(ReproductionError::Interrupted) => Outcome::Interrupted as u8,
+            Self::Reproduction(_) => 1,
         }
     }
 

@@ -6,16 +6,18 @@ mod compare_figure;
 mod compare_report;
 mod doctor;
 mod failure;
+mod figures;
 mod interrupt;
 mod pareto;
 mod pareto_figure;
 mod pareto_report;
 mod plan;
 mod progress;
+mod reproduce;
 mod show;
 mod simulate;
+mod steps;
 mod table2;
-mod table2_report;
 mod terminal;
 mod verify;
 
@@ -54,6 +56,8 @@ enum Command {
     Table2(table2::Arguments),
     Compare(compare::Arguments),
     Pareto(pareto::Arguments),
+    Figures(figures::Arguments),
+    Reproduce(reproduce::Arguments),
     Verify(verify::Arguments),
     Simulate(simulate::Arguments),
     Doctor(doctor::Arguments),
@@ -70,6 +74,8 @@ pub fn run() -> ExitCode {
         Command::Table2(arguments) => table2::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Pareto(arguments) => pareto::run(&arguments),
+        Command::Figures(arguments) => figures::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),

@@ -1,15 +1,13 @@
 //! `table2`: the paper's comparison of the global and the adaptive method.
 
 use super::failure::Failure;
-use super::progress::Progress;
-use super::table2_report::{self, Row};
-use super::{Outcome, interrupt, terminal};
-use crate::config::ProblemFile;
-use crate::nlp::ipopt::interrupt as stop;
-use crate::planner::{Plan, Planner, Status};
-use crate::refine::Method;
-use crate::report::OutputFolder;
+use super::steps::Steps;
+use super::{Outcome, terminal};
+use crate::nlp::ipopt;
+use crate::report::{Build, OutputFolder, to_json};
+use crate::reproduction::table2::{self, Row, SensitivityRow, SweepRow};
 use clap::Args;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Run the paper's Table II: global RPM against A-RPM at three tolerances
@@ -21,70 +19,78 @@ pub(super) struct Arguments {
     /// Runs of each case; the median time is shown
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     repeat: u16,
+    /// Also A-RPM over a grid of λ₁, λ₂ and r_max
+    #[arg(long)]
+    sensitivity: bool,
+    /// Also both methods along a sweep of the control's weight from 1 to 0
+    #[arg(long)]
+    sweep: bool,
 }
 
-/// The shipped problems that can be solved.
-const CASES: [&str; 2] = ["table1-relaxed", "table1-smooth"];
-const TOLERANCES: [f64; 3] = [1e-3, 1e-4, 1e-5];
-/// In the paper's order.
-const METHODS: [Method; 2] = [Method::Global, Method::Adaptive];
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    version: &'static str,
+    ipopt: &'static str,
+    repeat: u16,
+    rows: &'a [Row],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensitivity: Option<&'a [SensitivityRow]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sweep: Option<&'a [SweepRow]>,
+}
 
 /// Runs, writes, prints.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let folder = OutputFolder::create(&arguments.out)?;
-    interrupt::listen();
-    let mut rows = Vec::new();
-    for case in CASES {
-        let mut file = ProblemFile::shipped(case)?;
-        for tolerance in TOLERANCES {
-            for method in METHODS {
-                file.problem.mesh.tolerance = tolerance;
-                file.problem.mesh.method = method;
-                let plans = repeat(&file, arguments.repeat)?;
-                if stop::requested() {
-                    return Ok(Outcome::Interrupted);
-                }
-                rows.extend(Row::of(case, &plans));
-            }
-        }
+    let mut steps = Steps::listen();
+    let mut monitor = |step: crate::reproduction::Step<'_>| steps.show(step);
+    let mut session = crate::reproduction::Session::new(&mut monitor);
+    let rows = table2::rows(&mut session, arguments.repeat)?;
+    let sensitivity = arguments
+        .sensitivity
+        .then(|| table2::sensitivity(&mut session))
+        .transpose()?;
+    let sweep = arguments
+        .sweep
+        .then(|| table2::sweep(&mut session))
+        .transpose()?;
+    steps.finish();
+    let mut text = table2::markdown(&rows, arguments.repeat);
+    let mut files = vec![("table2.csv", table2::sheet(&rows).csv())];
+    if let Some(rows) = &sensitivity {
+        text.push_str(&table2::sensitivity_markdown(rows));
+        files.push(("sensitivity.csv", table2::sensitivity_sheet(rows).csv()));
     }
-    let text = table2_report::markdown(&rows, arguments.repeat);
-    let (json, csv) = table2_report::data(&rows, arguments.repeat)?;
+    if let Some(rows) = &sweep {
+        text.push_str(&table2::sweep_markdown(rows));
+        files.push(("sweep.csv", table2::sweep_sheet(rows).csv()));
+    }
+    let document = Document {
+        schema: 1,
+        version: Build::VERSION,
+        ipopt: ipopt::version(),
+        repeat: arguments.repeat,
+        rows: &rows,
+        sensitivity: sensitivity.as_deref(),
+        sweep: sweep.as_deref(),
+    };
+    let json = to_json(&document).map_err(|error| Failure::Format {
+        path: "table2.json".into(),
+        message: error.to_string(),
+    })?;
     terminal::print(&text)?;
-    for (name, contents) in [
-        ("table2.md", &text),
-        ("table2.csv", &csv),
-        ("table2.json", &json),
-    ] {
-        terminal::print(&format!(
-            "written {}\n",
-            folder.write(name, contents)?.display()
-        ))?;
+    files.push(("table2.json", json));
+    files.push(("table2.md", text));
+    let mut written = Vec::new();
+    for (name, contents) in &files {
+        written.push(folder.write(name, contents)?);
+    }
+    if let Some(rows) = &sweep {
+        written.extend(folder.write_figure("sweep", &table2::sweep_figure(rows))?);
+    }
+    for path in written {
+        terminal::print(&format!("written {}\n", path.display()))?;
     }
     Ok(Outcome::Done)
-}
-
-/// The same problem several times, each from nothing.
-fn repeat(file: &ProblemFile, times: u16) -> Result<Vec<Plan>, Failure> {
-    let mesh = &file.problem.mesh;
-    let title = format!(
-        "{}, {} to {:e}",
-        file.problem.name,
-        mesh.method.name(),
-        mesh.tolerance
-    );
-    let mut progress = Progress::start(&title, false);
-    let mut plans = Vec::new();
-    for _ in 0..times {
-        let plan = Planner::new()
-            .plan_with(&file.problem, None, &mut |event| progress.show(event))
-            .map_err(|error| Failure::planning(file, None, error))?;
-        let stopped = plan.status == Status::Interrupted;
-        plans.push(plan);
-        if stopped {
-            break;
-        }
-    }
-    progress.finish();
-    Ok(plans)
 }

@@ -5,6 +5,7 @@ use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
+use crate::refine::Start;
 use crate::transcription::Discretization;
 
 /// Steps of the base's integration along the whole motion.
@@ -86,6 +87,22 @@ pub(super) fn along<Sp: Space>(
             u[j] = ddq[j] / (duration * duration);
         }
     })
+}
+
+/// A start whose joints go from rest to rest through `way_points` (each of length n), the base
+/// following by momentum.
+pub fn through<Sp: Space>(
+    problem: &Problem,
+    system: &FreeFloating<Sp>,
+    way_points: Vec<Vec<f64>>,
+    mesh: Mesh,
+) -> Start {
+    let path = JointPath::new(problem, way_points);
+    let duration = problem.task.duration.center();
+    Start {
+        trajectory: along(system, duration, &path, mesh),
+        iterate: None,
+    }
 }
 
 /// Base attitude on an even grid along the path, by the midpoint rule.

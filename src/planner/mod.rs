@@ -30,6 +30,7 @@ pub use cost_terms::{CostTerms, JointEffort};
 pub use event::Event;
 pub use free_floating::FreeFloating;
 pub use goal::{EndEffectorGoal, GoalFrame};
+pub use guess::through;
 pub use keep_out::{KeepOut, Obstacle, Sphere};
 pub use method::Method;
 pub use momentum::Momentum;

@@ -1,0 +1,64 @@
+//! Figure 3: error of every state in every segment at each mesh iteration.
+
+use super::Case;
+use crate::plot::{Axis, Chart, Colour, Figure, Series, Width};
+
+/// Ordinal numbers of the paper's sub-captions.
+const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
+
+/// One panel a mesh iteration.
+pub fn errors(case: &Case) -> Figure {
+    let records = &case.iterations;
+    let duration = case.trajectory.duration;
+    let tolerance = case.problem.mesh.tolerance;
+    let n = case.problem.robot.joint_count();
+    let all = || {
+        records
+            .iter()
+            .flat_map(|r| r.segment_errors.iter().flatten())
+    };
+    let top = all().copied().fold(tolerance, f64::max);
+    let description = format!(
+        "Error of every state at each mesh iteration, {} case",
+        case.name
+    );
+    let mut figure = Figure::new(&description, Width::Page).columns(2);
+    for (k, record) in records.iter().enumerate() {
+        let edges: Vec<f64> = record.breakpoints.iter().map(|f| f * duration).collect();
+        // Errors far below the tolerance say nothing.
+        let axis = Axis::log("Error (28)").range(1e-4 * tolerance, 2.0 * top);
+        let letter = char::from(b'a' + (k % 26) as u8);
+        let ordinal = ORDINALS.get(k).copied().unwrap_or("next");
+        let mut chart = Chart::new(Axis::linear("Time (s)"), axis)
+            .title(&format!(
+                "({letter}) The {ordinal} iteration: {} points, {}",
+                record.points, case.name
+            ))
+            .divisions(&edges[1..edges.len() - 1])
+            .bounds("tolerance", &[tolerance]);
+        let angles = record.segment_errors.first().map_or(0, Vec::len) - 2 * n;
+        for state in 0..angles + 2 * n {
+            let levels: Vec<f64> = record.segment_errors.iter().map(|e| e[state]).collect();
+            let mut series = Series::steps(&name(state, angles, n), &edges, &levels);
+            if state < angles {
+                series = series.colour(Colour::Black);
+            }
+            chart = chart.series(series);
+        }
+        figure = figure.panel(chart.height(95.0));
+    }
+    figure
+}
+
+fn name(state: usize, angles: usize, joints: usize) -> String {
+    match state.checked_sub(angles) {
+        None => "base".into(),
+        Some(j) if j < joints => format!("θ{}", subscript(j + 1)),
+        Some(j) => format!("θ̇{}", subscript(j - joints + 1)),
+    }
+}
+
+fn subscript(number: usize) -> String {
+    let digit = |c: char| char::from_u32(0x2080 + c.to_digit(10).unwrap_or(0)).unwrap_or(c);
+    number.to_string().chars().map(digit).collect()
+}

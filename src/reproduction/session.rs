@@ -1,0 +1,119 @@
+//! Plans one after another, each from nothing, with their time.
+
+use crate::config::ConfigError;
+use crate::nlp::Control;
+use crate::planner::{Event, Plan, PlanError, Planner, Problem, Status};
+use crate::refine::Start;
+use crate::report::OutputError;
+use rustix::time::{ClockId, clock_gettime};
+
+/// Why nothing came of it.
+#[derive(Debug, thiserror::Error)]
+pub enum ReproductionError {
+    /// A shipped problem cannot be read.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A plan cannot be made.
+    #[error("{title}: {source}")]
+    Plan {
+        /// What was being planned.
+        title: String,
+        /// Why not.
+        source: PlanError,
+    },
+    /// Stopped from outside.
+    #[error("interrupted: nothing further was written")]
+    Interrupted,
+    /// A result cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A result cannot be put into words.
+    #[error("{name}: cannot be written: {message}")]
+    Format {
+        /// The file.
+        name: String,
+        /// Why not.
+        message: String,
+    },
+}
+
+/// A step of the work, for a progress line.
+#[derive(Debug, Clone, Copy)]
+pub enum Step<'a> {
+    /// Something new begins.
+    Begin(&'a str),
+    /// A step of planning.
+    Event(&'a Event<'a>),
+}
+
+/// One plan and the processor time it took.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// The plan.
+    pub plan: Plan,
+    /// Processor time of this process, s.
+    pub cpu_seconds: f64,
+}
+
+/// Plans one after another; the monitor is told and can stop it.
+pub struct Session<'m> {
+    monitor: &'m mut dyn FnMut(Step<'_>) -> Control,
+}
+
+impl<'m> Session<'m> {
+    /// A session that tells `monitor` of every step.
+    pub fn new(monitor: &'m mut dyn FnMut(Step<'_>) -> Control) -> Self {
+        Self { monitor }
+    }
+
+    /// Says that something new begins.
+    ///
+    /// # Errors
+    /// [`ReproductionError::Interrupted`] where the monitor stops it here.
+    pub fn begin(&mut self, title: &str) -> Result<(), ReproductionError> {
+        match (self.monitor)(Step::Begin(title)) {
+            Control::Stop => Err(ReproductionError::Interrupted),
+            Control::Continue => Ok(()),
+        }
+    }
+
+    /// Passes a step of planning on to the monitor.
+    pub(super) fn show(&mut self, event: &Event<'_>) -> Control {
+        (self.monitor)(Step::Event(event))
+    }
+
+    /// Plans `problem` with a fresh planner, by the method of its mesh.
+    ///
+    /// # Errors
+    /// [`ReproductionError::Plan`], and [`ReproductionError::Interrupted`] where the monitor
+    /// stops it; a problem without a solution is a plan all the same.
+    pub fn plan(
+        &mut self,
+        title: &str,
+        problem: &Problem,
+        start: Option<&Start>,
+    ) -> Result<Run, ReproductionError> {
+        self.begin(title)?;
+        let began = processor_seconds();
+        let monitor = &mut *self.monitor;
+        let plan = Planner::new()
+            .plan_with(problem, start, &mut |event| monitor(Step::Event(event)))
+            .map_err(|source| ReproductionError::Plan {
+                title: title.into(),
+                source,
+            })?;
+        if plan.status == Status::Interrupted {
+            return Err(ReproductionError::Interrupted);
+        }
+        Ok(Run {
+            plan,
+            cpu_seconds: processor_seconds() - began,
+        })
+    }
+}
+
+/// Processor time this process has used, s.
+fn processor_seconds() -> f64 {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
