@@ -25,6 +25,7 @@ impl Ocp for Slide {
             controls: vec![Quantity::new("slope", Interval::new(0.0, FRAC_PI_2))],
             path: vec![],
             boundary: vec![],
+            way_points: vec![],
             initial: vec![Interval::fixed(0.0); 3],
             terminal: vec![Interval::fixed(2.0), Interval::fixed(2.0), Interval::FREE],
             duration: Interval::new(0.1, 10.0),

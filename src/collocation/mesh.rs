@@ -45,6 +45,9 @@ pub struct Mesh {
     starts: Vec<usize>,
 }
 
+/// Part of a segment's width within which a breakpoint moves rather than the segment be divided.
+const NEAR: f64 = 0.1;
+
 impl Mesh {
     /// A mesh from breakpoints (S + 1, rising from 0 to 1) and points in each segment (S).
     ///
@@ -103,6 +106,48 @@ impl Mesh {
             .map(|s| s as f64 / segments.max(1) as f64)
             .collect();
         Self::new(breakpoints, &vec![points; segments])
+    }
+
+    /// The same mesh with a breakpoint at each of `fractions`, which lie between 0 and 1 and rise.
+    ///
+    /// A breakpoint that is closer than a tenth of the narrower segment beside it moves there;
+    /// else the segment is divided, and each part has its points.
+    ///
+    /// # Errors
+    /// [`MeshError::NotRising`] for a fraction that is not above 0 and below 1.
+    pub fn through(&self, fractions: &[f64]) -> Result<Self, MeshError> {
+        let mut breakpoints = self.breakpoints.clone();
+        let mut points = self.points_per_segment();
+        for &fraction in fractions.iter() {
+            if breakpoints.contains(&fraction) {
+                continue;
+            }
+            let right = breakpoints
+                .partition_point(|&b| b < fraction)
+                .clamp(1, points.len());
+            let close = |&b: &usize| {
+                let inner = b > 0 && b < points.len() && !fractions.contains(&breakpoints[b]);
+                let room = |b: usize| {
+                    (breakpoints[b + 1] - breakpoints[b]).min(breakpoints[b] - breakpoints[b - 1])
+                };
+                inner && (breakpoints[b] - fraction).abs() <= NEAR * room(b)
+            };
+            match [right - 1, right].iter().find(|b| close(b)) {
+                Some(&b) => breakpoints[b] = fraction,
+                None => {
+                    breakpoints.insert(right, fraction);
+                    points.insert(right, points[right - 1]);
+                }
+            }
+        }
+        Self::new(breakpoints, &points)
+    }
+
+    /// The node at a breakpoint, which is the first of the segment that starts there; `None` where
+    /// there is no breakpoint, and at t_f.
+    pub fn node_at(&self, fraction: f64) -> Option<usize> {
+        let s = self.breakpoints.iter().position(|&b| b == fraction)?;
+        (s < self.segments()).then(|| self.start(s))
     }
 
     /// Number of segments S.
@@ -172,5 +217,27 @@ impl Mesh {
             - 1;
         let tau = 2.0 * (fraction - self.breakpoints[s]) / self.width(s) - 1.0;
         (s, tau.clamp(-1.0, 1.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_breakpoint_nearby_moves_and_a_new_one_divides() {
+        let mesh = Mesh::uniform(4, 3).unwrap();
+        let through = mesh.through(&[0.26, 0.4, 0.75]).unwrap();
+        assert_eq!(through.breakpoints(), [0.0, 0.26, 0.4, 0.5, 0.75, 1.0]);
+        assert_eq!(through.points_per_segment(), [3; 5]);
+        assert_eq!(through.node_at(0.4), Some(6));
+        assert_eq!(through.node_at(0.3), None);
+        // A way-point never moves, however near the next.
+        let two = mesh.through(&[0.25, 0.2500001]).unwrap();
+        assert_eq!(two.breakpoints()[1..3], [0.25, 0.2500001]);
+        assert_eq!(two.through(&[0.25, 0.2500001]).unwrap(), two);
+        for wrong in [0.0 - 1e-3, 1.0 + 1e-3, f64::NAN] {
+            assert!(mesh.through(&[wrong]).is_err(), "{wrong}");
+        }
     }
 }

@@ -171,11 +171,16 @@ impl<'a> Section<'a> {
 
     /// The value of a key that must be given.
     pub(super) fn require(&self, name: &str, expected: &str) -> Result<&Item<'a>, ConfigError> {
-        self.get(name).ok_or_else(|| ConfigError::Missing {
+        self.get(name).ok_or_else(|| self.missing(name, expected))
+    }
+
+    /// An error about a key that is not given.
+    pub(super) fn missing(&self, name: &str, expected: &str) -> ConfigError {
+        ConfigError::Missing {
             place: self.place(),
             key: self.item.path(name),
             expected: expected.into(),
-        })
+        }
     }
 
     /// Where the table is given.

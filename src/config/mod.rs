@@ -21,6 +21,7 @@ mod problem;
 mod robot;
 mod tables;
 mod values;
+mod way_point;
 
 pub use error::{ConfigError, Place};
 pub use overrides::Overrides;

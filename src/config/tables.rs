@@ -6,6 +6,7 @@ use super::goal;
 use super::item::Item;
 use super::keep_out;
 use super::values::Components;
+use super::way_point;
 use crate::dynamics::Model;
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
@@ -24,7 +25,7 @@ pub(super) fn task(
     angles: &Components,
     lengths: &Components,
 ) -> Result<Task, ConfigError> {
-    let section = item.section(&["duration", "initial", "final"])?;
+    let section = item.section(&["duration", "initial", "final", "way_points"])?;
     let expected = "a table with joints, the joint positions at the start";
     let initial = section.require("initial", expected)?.section(&[
         "joints",
@@ -49,7 +50,12 @@ pub(super) fn task(
         }
         (Some(_), given) => goal::joints(given, goal.get("guess"), joints, &initial_joints)?,
     };
+    let way_points = match section.get("way_points") {
+        Some(item) => way_point::read(item, joints, angles, lengths)?,
+        None => Vec::new(),
+    };
     Ok(Task {
+        way_points,
         duration: duration(section.require("duration", DURATION)?)?,
         initial_rates: or_zero(initial.get("rates"), joints)?,
         initial_momentum: Momentum {

@@ -141,6 +141,18 @@ impl Components {
             .collect()
     }
 
+    /// Finite numbers: an array of all of them, or a table by name with those that are given.
+    pub(super) fn some(&self, item: &Item<'_>) -> Result<Vec<Option<f64>>, ConfigError> {
+        let Some(entries) = item.as_entries() else {
+            return Ok(self.vector(item)?.into_iter().map(Some).collect());
+        };
+        let number = |entry: Option<Item<'_>>| match entry {
+            Some(entry) => entry.number("a finite number").map(Some),
+            None => Ok(None),
+        };
+        self.by_name(entries)?.into_iter().map(number).collect()
+    }
+
     /// Weights: one number for all, an array, or a table by name (0 for those left out).
     pub(super) fn weights(&self, item: &Item<'_>) -> Result<Vec<f64>, ConfigError> {
         let expected = format!(

@@ -1,6 +1,6 @@
 //! Limits that give way at a price: finds which limits of a problem cannot hold.
 
-use super::{Ends, Formulation, Interval, Ocp, Point, Quantity};
+use super::{Ends, Formulation, Interval, Ocp, Passage, Point, Quantity};
 use crate::autodiff::Scalar;
 
 /// One bound that may give way.
@@ -16,6 +16,10 @@ pub enum Limited {
     Path(usize),
     /// The bounds of a boundary row.
     Boundary(usize),
+    /// The bounds of a state at a way-point: which way-point, which state.
+    Passed(usize, usize),
+    /// The bounds of a row of a way-point: which way-point, which row.
+    WayPoint(usize, usize),
 }
 
 /// Bounds that belong to one limit of the problem and give way together.
@@ -43,9 +47,11 @@ pub struct Elastic<'a, O> {
     /// Path rows beyond the inner ones: (bound, group, interval).
     path: Vec<(Limited, usize, Interval)>,
     boundary: Vec<(End, usize, Interval)>,
+    /// The same of each way-point.
+    way_points: Vec<Vec<(End, usize, Interval)>>,
 }
 
-/// What an elastic boundary row bounds.
+/// What an elastic row of the ends or of a way-point bounds.
 #[derive(Debug, Clone, Copy)]
 enum End {
     State(usize),
@@ -58,6 +64,7 @@ impl<'a, O: Ocp> Elastic<'a, O> {
         let mut base = inner.formulation();
         let mut path = Vec::new();
         let mut boundary = Vec::new();
+        let mut way_points = vec![Vec::new(); base.way_points.len()];
         for (g, group) in groups.iter().enumerate() {
             for &member in &group.members {
                 let freed = match member {
@@ -80,6 +87,18 @@ impl<'a, O: Ocp> Elastic<'a, O> {
                         boundary.push((End::Row(b), g, bounds));
                         continue;
                     }
+                    Limited::Passed(w, i) => {
+                        let at = &mut base.way_points[w].states[i];
+                        let bounds = std::mem::replace(at, Interval::FREE);
+                        way_points[w].push((End::State(i), g, bounds));
+                        continue;
+                    }
+                    Limited::WayPoint(w, r) => {
+                        let at = &mut base.way_points[w].rows[r].bounds;
+                        let bounds = std::mem::replace(at, Interval::FREE);
+                        way_points[w].push((End::Row(r), g, bounds));
+                        continue;
+                    }
                     Limited::Control(i) => &mut base.controls[i].bounds,
                     Limited::Path(i) => &mut base.path[i].bounds,
                 };
@@ -93,6 +112,7 @@ impl<'a, O: Ocp> Elastic<'a, O> {
             base,
             path,
             boundary,
+            way_points,
         }
     }
 
@@ -123,6 +143,28 @@ impl<'a, O: Ocp> Elastic<'a, O> {
     }
 }
 
+impl<O: Ocp> Elastic<'_, O> {
+    /// The two rows of each of `bounds`, from the states at that instant and the inner rows.
+    fn bound_ends<S: Scalar>(
+        &self,
+        bounds: &[(End, usize, Interval)],
+        x: &[S],
+        amounts: &[S],
+        inner_rows: &[S],
+        elastic_rows: &mut [S],
+    ) {
+        for (rows, &(end, group, _)) in elastic_rows.chunks_exact_mut(2).zip(bounds) {
+            let value = match end {
+                End::State(i) => x[i],
+                End::Row(row) => inner_rows[row],
+            };
+            let room = amounts[group] * self.groups[group].scale;
+            rows[0] = value - room;
+            rows[1] = value + room;
+        }
+    }
+}
+
 /// Scratch of [`Elastic`].
 #[derive(Debug)]
 pub struct ElasticScratch<S, I> {
@@ -140,7 +182,7 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
                 Limited::State(i) | Limited::Terminal(i) => &self.base.states[i].name,
                 Limited::Control(i) => &self.base.controls[i].name,
                 Limited::Path(i) => &self.base.path[i].name,
-                Limited::Boundary(i) => &self.base.boundary[i].name,
+                _ => unreachable!("bounds at one instant are not path rows"),
             };
             formulation.path.extend(self.rows(name, group, bounds));
         }
@@ -150,6 +192,22 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
                 End::Row(b) => &self.base.boundary[b].name,
             };
             formulation.boundary.extend(self.rows(name, group, bounds));
+        }
+        for (w, elastic) in self.way_points.iter().enumerate() {
+            for &(end, group, bounds) in elastic {
+                let name = match end {
+                    End::State(i) => &self.base.states[i].name,
+                    End::Row(r) => &self.base.way_points[w].rows[r].name,
+                };
+                let rows = self.rows(name, group, bounds);
+                formulation.way_points[w].rows.extend(rows);
+            }
+        }
+        for point in &mut formulation.way_points {
+            let amounts = self.groups.len();
+            point
+                .states
+                .extend(std::iter::repeat_n(Interval::FREE, amounts));
         }
         for group in &self.groups {
             let amount = Interval::new(0.0, f64::INFINITY);
@@ -193,7 +251,7 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
                 Limited::State(i) | Limited::Terminal(i) => x[i],
                 Limited::Control(i) => point.u[i],
                 Limited::Path(i) => scratch.path[i],
-                Limited::Boundary(_) => unreachable!("boundary rows are not path rows"),
+                _ => unreachable!("bounds at one instant are not path rows"),
             };
             let room = amounts[group] * self.groups[group].scale;
             rows[0] = value - room;
@@ -220,19 +278,25 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
             .inner
             .boundary(inner_ends, &mut scratch.inner, inner_rows)
             * self.regularization;
-        for (rows, &(end, group, _)) in elastic_rows.chunks_exact_mut(2).zip(&self.boundary) {
-            let value = match end {
-                End::State(i) => x[i],
-                End::Row(b) => inner_rows[b],
-            };
-            let room = amounts[group] * self.groups[group].scale;
-            rows[0] = value - room;
-            rows[1] = value + room;
-        }
+        self.bound_ends(&self.boundary, x, amounts, inner_rows, elastic_rows);
         for &amount in amounts {
             cost += amount;
         }
         cost
+    }
+
+    fn way_point<S: Scalar>(
+        &self,
+        passage: Passage<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rows: &mut [S],
+    ) {
+        let w = passage.way_point;
+        let (x, amounts) = passage.x.split_at(self.base.states.len());
+        let (inner_rows, elastic_rows) = rows.split_at_mut(self.base.way_points[w].rows.len());
+        let inner = Passage { x, ..passage };
+        self.inner.way_point(inner, &mut scratch.inner, inner_rows);
+        self.bound_ends(&self.way_points[w], x, amounts, inner_rows, elastic_rows);
     }
 
     fn has_branches(&self) -> bool {

@@ -8,4 +8,4 @@ mod problem;
 
 pub use elastic::{Elastic, LimitGroup, Limited};
 pub use interval::Interval;
-pub use problem::{Ends, Formulation, Ocp, Point, Quantity};
+pub use problem::{Ends, Formulation, Ocp, Passage, Point, Quantity, WayPoint};

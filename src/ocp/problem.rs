@@ -39,12 +39,32 @@ pub struct Formulation {
     pub terminal: Vec<Interval>,
     /// Bounds of the duration t_f − t₀ in s; fixed where both are equal. t₀ is 0.
     pub duration: Interval,
+    /// What has to hold between the ends, in the order of the fractions, no two at the same.
+    pub way_points: Vec<WayPoint>,
+}
+
+/// Conditions at one instant between t₀ and t_f: an interior-point constraint.
+///
+/// The mesh has a breakpoint there, so that the states have a node and their costates may jump.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WayPoint {
+    /// Where it stands: fraction of the duration, above 0 and below 1.
+    pub fraction: f64,
+    /// Bounds of each state there, beyond those along the path.
+    pub states: Vec<Interval>,
+    /// Rows that are functions of the states there and of the time.
+    pub rows: Vec<Quantity>,
 }
 
 impl Formulation {
     /// Number of states and of controls.
     pub fn widths(&self) -> (usize, usize) {
         (self.states.len(), self.controls.len())
+    }
+
+    /// Fractions of the duration at which the mesh needs a breakpoint, rising.
+    pub fn way_point_fractions(&self) -> Vec<f64> {
+        self.way_points.iter().map(|point| point.fraction).collect()
     }
 }
 
@@ -68,6 +88,17 @@ pub struct Ends<'a, S> {
     pub terminal: &'a [S],
     /// Duration t_f − t₀, s.
     pub duration: S,
+}
+
+/// The instant of a way-point.
+#[derive(Debug, Clone, Copy)]
+pub struct Passage<'a, S> {
+    /// Which one, in the order of [`Formulation::way_points`].
+    pub way_point: usize,
+    /// States there.
+    pub x: &'a [S],
+    /// Time there, s.
+    pub t: S,
 }
 
 /// An optimal control problem in Bolza form, eq. (17) and (18).
@@ -104,6 +135,16 @@ pub trait Ocp: Sync {
     ) -> S {
         let _ = (ends, scratch, rows);
         S::zero()
+    }
+
+    /// Writes the rows of a way-point into `rows`.
+    fn way_point<S: Scalar>(
+        &self,
+        passage: Passage<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rows: &mut [S],
+    ) {
+        let _ = (passage, scratch, rows);
     }
 
     /// Whether derivatives may vanish in one region and not in another, so that sampling could

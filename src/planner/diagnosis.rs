@@ -11,7 +11,7 @@ use crate::ocp::{Elastic, Interval, LimitGroup, Limited, Ocp};
 use crate::refine::{self, Method, Refinement, Start};
 use crate::transcription::{Discretization, Patterns};
 
-/// Starts tried: the failed trajectory, the straight path, and paths through random way-points.
+/// Starts tried: the failed trajectory, the straight path, and paths through random detours.
 const STARTS: usize = 16;
 /// Starts in a row without a better result after which the search ends.
 const PATIENCE: usize = 5;
@@ -147,7 +147,8 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             settings: &settings,
             solver: &solver,
         };
-        let mesh = settings.first_mesh()?;
+        let fractions = self.system.formulation().way_point_fractions();
+        let mesh = settings.first_mesh()?.through(&fractions)?;
         let mut random = fastrand::Rng::with_seed(1);
         let mut best: Option<(f64, Discretization)> = None;
         let [mut tried, mut solved, mut stale] = [0; 3];
@@ -164,7 +165,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             let trajectory = if start == 0 {
                 self.failed.resample(mesh.clone())
             } else {
-                let path = JointPath::new(self.problem, self.way_points(start, &mut random));
+                let path = JointPath::new(self.problem, &self.detours(start, &mut random));
                 along(
                     self.system,
                     self.problem.task.duration.center(),
@@ -215,7 +216,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
     }
 
     /// None for the first path, then one to four points within the joints' limits.
-    fn way_points(&self, start: usize, random: &mut fastrand::Rng) -> Vec<Vec<f64>> {
+    fn detours(&self, start: usize, random: &mut fastrand::Rng) -> Vec<Vec<f64>> {
         let count = (start - 1) % 5;
         let task = &self.problem.task;
         (0..count)
@@ -292,6 +293,7 @@ pub(super) fn findings<Sp: Space>(
     let last = &state_rows[state_rows.len() - 1];
     let path_rows = system.path_rows(trajectory);
     let end_rows = system.end_rows(trajectory);
+    let passed = system.passed(trajectory);
     let mut limits = Vec::new();
     for group in groups {
         if group.name == ROTATION {
@@ -299,6 +301,7 @@ pub(super) fn findings<Sp: Space>(
             continue;
         }
         for &member in &group.members {
+            let mut at_way_point = None;
             let (key, component, bound, values) = match member {
                 Limited::State(i) => {
                     let key = if i < angles {
@@ -335,6 +338,16 @@ pub(super) fn findings<Sp: Space>(
                         vec![end_rows[b]],
                     )
                 }
+                Limited::Passed(w, i) => {
+                    at_way_point = Some(w);
+                    let bound = formulation.way_points[w].states[i];
+                    ("task.way_points", &group.name, bound, vec![passed[w].0[i]])
+                }
+                Limited::WayPoint(w, r) => {
+                    at_way_point = Some(w);
+                    let bound = formulation.way_points[w].rows[r].bounds;
+                    ("task.way_points", &group.name, bound, vec![passed[w].1[r]])
+                }
                 Limited::Path(p) => {
                     let row = &formulation.path[p];
                     (
@@ -355,7 +368,10 @@ pub(super) fn findings<Sp: Space>(
                 .fold(0.0, f64::max);
             if excess > HELD * group.scale {
                 limits.push(LimitFinding {
-                    key: key.into(),
+                    key: match at_way_point {
+                        Some(w) => format!("{key}[{w}]"),
+                        None => key.into(),
+                    },
                     component: component.clone(),
                     unit: unit(problem, key, component, member_joint(system, member)),
                     bound,
@@ -448,22 +464,24 @@ pub(super) fn summary_with(limits: &[LimitFinding], verb: &str) -> String {
 /// The joint a bound is about; `None` for the base and for what is about no single joint.
 fn member_joint<Sp: Space>(system: &FreeFloating<Sp>, member: Limited) -> Option<usize> {
     match member {
-        Limited::State(i) | Limited::Terminal(i) => i
+        Limited::State(i) | Limited::Terminal(i) | Limited::Passed(_, i) => i
             .checked_sub(system.attitude().count())
             .map(|k| k % system.joint_count()),
         Limited::Control(j) => Some(j),
         Limited::Path(p) => system.path_limit(p).1,
-        Limited::Boundary(_) => None,
+        Limited::Boundary(_) | Limited::WayPoint(..) => None,
     }
 }
 
 fn unit(problem: &Problem, key: &str, component: &str, joint: Option<usize>) -> &'static str {
-    if key == "task.final.end_effector" {
+    if joint.is_none() && key.starts_with("task.") {
         // Turns are bounded by their sines.
         return if component.contains("turn") { "1" } else { "m" };
     }
     let slides = joint.is_some_and(|j| problem.robot.joints()[j].kind == JointKind::Prismatic);
     match (key, slides) {
+        ("task.way_points", false) if component.contains("rate") => "rad/s",
+        ("task.way_points", true) if component.contains("rate") => "m/s",
         ("limits.keep_out", _) => "of the least distance squared",
         ("limits.torque", false) => "N·m",
         ("limits.torque", true) => "N",

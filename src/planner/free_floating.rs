@@ -9,7 +9,7 @@ use crate::autodiff::Scalar;
 use crate::dynamics::attitude::{Attitude, PlanarAngle};
 use crate::dynamics::space::{Planar, Space, Spatial, Vector};
 use crate::dynamics::{Data, Tree};
-use crate::ocp::{Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Point, Quantity};
+use crate::ocp::{Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Passage, Point, Quantity};
 use crate::transcription::Discretization;
 
 /// States x = [η, θ, θ̇], controls u = H⁻¹τ.
@@ -28,6 +28,8 @@ pub struct FreeFloating<Sp: Space> {
     torque_rows: bool,
     torque_cost: bool,
     goal: Option<GoalRows<Sp>>,
+    /// Goal at each way-point.
+    way_points: Vec<Option<GoalRows<Sp>>>,
     drift: Drift<Sp>,
     turn: TurnLimits,
     keep_out: Vec<KeepOutRow<Sp>>,
@@ -64,6 +66,13 @@ impl<Sp: Space> FreeFloating<Sp> {
         let turn = TurnLimits::new::<Sp>(problem, attitude);
         let mut formulation = formulation::<Sp>(problem, (attitude, &turn), rate_rows, torque_rows);
         formulation.path.extend(turn.path());
+        let points = problem.task.way_points.iter().enumerate();
+        let (passed, way_points) = points
+            .map(|(i, point)| {
+                point.formulate(i, &problem.task.duration, attitude.count(), start_position)
+            })
+            .unzip();
+        formulation.way_points = passed;
         let pairs = limits.keep_out.iter();
         let keep_out: Vec<_> = pairs.map(|pair| KeepOutRow::new(pair, &tree)).collect();
         formulation
@@ -81,6 +90,7 @@ impl<Sp: Space> FreeFloating<Sp> {
             start_position,
             goal,
             turn,
+            way_points,
             keep_out,
             drift: Drift::new(&problem.task.initial_momentum, tree.total_mass()),
             rate_rows,
@@ -151,6 +161,45 @@ impl<Sp: Space> FreeFloating<Sp> {
         self.formulation.boundary.len() - self.turn.ends().len() - self.keep_out.len()
     }
 
+    /// The goal for the end effector at t_f.
+    pub(super) fn final_goal(&self) -> Option<&GoalRows<Sp>> {
+        self.goal.as_ref()
+    }
+
+    /// The goals at way-points: which one, its fraction of the duration, its rows.
+    pub(super) fn way_point_goals(&self) -> impl Iterator<Item = (usize, f64, &GoalRows<Sp>)> {
+        let fractions = self.formulation.way_points.iter().map(|p| p.fraction);
+        let goals = fractions.zip(&self.way_points).enumerate();
+        goals.filter_map(|(w, (fraction, goal))| Some((w, fraction, goal.as_ref()?)))
+    }
+
+    /// Values of a goal's rows for the states `x`, `t` seconds after t₀.
+    pub(super) fn goal_values(&self, goal: &GoalRows<Sp>, x: &[f64], t: f64) -> Vec<f64> {
+        let mut data = Data::<Sp, f64>::new(&self.tree);
+        let mut rows = vec![0.0; goal.quantities().len()];
+        self.pose(goal, x, t, &mut data, &mut rows);
+        rows
+    }
+
+    /// Rows of a goal for the states `x`, `t` seconds after t₀.
+    fn pose<S: Scalar>(
+        &self,
+        goal: &GoalRows<Sp>,
+        x: &[S],
+        t: S,
+        data: &mut Data<Sp, S>,
+        rows: &mut [S],
+    ) {
+        let (eta, joints) = x.split_at(self.attitude.count());
+        self.tree.kinematics(&joints[..self.joint_count()], data);
+        self.tree.momentum(data);
+        if let Some(pose) = self.tree.end_effector(data) {
+            let carry = |position: &mut [S]| self.drift.carry(t, position);
+            let base = (self.attitude, eta);
+            goal.values(base, pose, &data.system_center, carry, rows);
+        }
+    }
+
     /// Values of the path rows at every collocation point of `trajectory`.
     pub fn path_rows(&self, trajectory: &Discretization) -> Vec<Vec<f64>> {
         let mut scratch = self.scratch::<f64>();
@@ -162,6 +211,22 @@ impl<Sp: Space> FreeFloating<Sp> {
                 let (x, u, t) = (trajectory.state(k), trajectory.control(k), times[k]);
                 self.continuous(Point { x, u, t }, &mut scratch, &mut rates, &mut rows);
                 rows
+            })
+            .collect()
+    }
+
+    /// States and values of the rows at every way-point of `trajectory`.
+    pub fn passed(&self, trajectory: &Discretization) -> Vec<(Vec<f64>, Vec<f64>)> {
+        let mut u = vec![0.0; trajectory.controls];
+        let points = self.formulation.way_points.iter().zip(&self.way_points);
+        points
+            .map(|(point, goal)| {
+                let mut x = vec![0.0; trajectory.states];
+                trajectory.at_fraction(point.fraction, &mut x, &mut u);
+                let t = point.fraction * trajectory.duration;
+                let goal = goal.as_ref();
+                let rows = goal.map_or_else(Vec::new, |goal| self.goal_values(goal, &x, t));
+                (x, rows)
             })
             .collect()
     }
@@ -259,6 +324,27 @@ impl<Sp: Space> FreeFloating<Sp> {
                 scale: 0.1,
             });
         }
+        for (w, point) in self.formulation.way_points.iter().enumerate() {
+            let mut push = |name: String, member| {
+                groups.push(LimitGroup {
+                    name,
+                    members: vec![member],
+                    scale: 0.1,
+                });
+            };
+            for (i, _) in point
+                .states
+                .iter()
+                .enumerate()
+                .filter(|(_, b)| !b.is_free())
+            {
+                let name = format!("{}, way-point {}", states[i].name, w + 1);
+                push(name, Limited::Passed(w, i));
+            }
+            for (r, row) in point.rows.iter().enumerate() {
+                push(row.name.clone(), Limited::WayPoint(w, r));
+            }
+        }
         let mut push = |name: String, members: Vec<Limited>, bounds: &Interval| {
             groups.push(LimitGroup {
                 name,
@@ -343,6 +429,7 @@ fn formulation<Sp: Space>(
         ]
         .concat(),
         duration: task.duration,
+        way_points: Vec::new(),
     }
 }
 
@@ -426,6 +513,17 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
             torque_rows.copy_from_slice(&scratch.torque);
         }
         self.running_cost(spin, dtheta, point.u, &scratch.torque)
+    }
+
+    fn way_point<S: Scalar>(
+        &self,
+        passage: Passage<'_, S>,
+        scratch: &mut Scratch<Sp, S>,
+        rows: &mut [S],
+    ) {
+        if let Some(goal) = &self.way_points[passage.way_point] {
+            self.pose(goal, passage.x, passage.t, &mut scratch.data, rows);
+        }
     }
 
     fn boundary<S: Scalar>(

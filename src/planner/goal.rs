@@ -1,6 +1,9 @@
-//! Task-space goals: where the end effector is to be at t_f.
+//! Task-space goals: where the end effector is to be at t_f or at a way-point.
 
+use super::Problem;
+use super::problem::{ProblemError, count, error, indexed};
 use crate::autodiff::Scalar;
+use crate::dynamics::Model;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
 use crate::ocp::{Interval, Quantity};
@@ -12,7 +15,7 @@ pub enum GoalFrame {
     Inertial,
     /// The base frame as it is at t₀, fixed in inertial space from then on.
     Start,
-    /// The base frame as it is at t_f.
+    /// The base frame as it is at t_f, or at the way-point.
     Base,
 }
 
@@ -27,7 +30,7 @@ impl GoalFrame {
     }
 }
 
-/// Position, orientation or both of the end-effector frame at t_f.
+/// Position, orientation or both of the end-effector frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EndEffectorGoal {
     /// The frame that position and orientation are given in.
@@ -52,6 +55,43 @@ impl EndEffectorGoal {
             orientation: None,
             orientation_tolerance: 0.0,
         }
+    }
+
+    /// Checks the goal of `robot` that stands under `key`.
+    pub(super) fn validate(&self, key: &str, robot: &Model) -> Result<(), ProblemError> {
+        let (angles, lengths) = Problem::base_sizes(robot);
+        if robot.end_effector().is_none() {
+            let expected = "a robot with an end effector";
+            return Err(error(key, "a goal for the end effector", expected));
+        }
+        if self.position.is_none() && self.orientation.is_none() {
+            return Err(error(key, "neither", "a position, an orientation or both"));
+        }
+        for (name, values, size, what) in [
+            ("position", &self.position, lengths, "base lengths"),
+            ("orientation", &self.orientation, angles, "base angles"),
+        ] {
+            let key = format!("{key}.{name}");
+            if let Some(values) = values {
+                count(&key, values.len(), size, what)?;
+                for (i, value) in values.iter().enumerate() {
+                    if !value.is_finite() {
+                        return Err(error(indexed(&key, i, size), value, "a finite number"));
+                    }
+                }
+            }
+        }
+        let room = self.position_tolerance;
+        if !(room.is_finite() && room >= 0.0) {
+            let key = format!("{key}.position_tolerance");
+            return Err(error(key, room, "a finite length, m, zero or above"));
+        }
+        let room = self.orientation_tolerance;
+        if !(0.0..1.5).contains(&room) {
+            let key = format!("{key}.orientation_tolerance");
+            return Err(error(key, room, "an angle from 0 to below 1.5 rad"));
+        }
+        Ok(())
     }
 }
 
@@ -103,6 +143,21 @@ impl<Sp: Space> GoalRows<Sp> {
             rows.push(Quantity::new("end effector not turned over", cosine));
         }
         rows
+    }
+
+    /// Distance from the position (m) and angle from the orientation (rad) behind values of the
+    /// rows; `None` for what is no part of the goal.
+    pub fn gap(&self, rows: &[f64]) -> (Option<f64>, Option<f64>) {
+        let norm = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let (at, turned) = rows.split_at(self.goal.position.as_ref().map_or(0, Vec::len));
+        let distance = self.goal.position.as_ref().map(|wanted| {
+            let apart: Vec<f64> = at.iter().zip(wanted).map(|(a, b)| a - b).collect();
+            norm(&apart)
+        });
+        let angle = turned
+            .split_last()
+            .map(|(cosine, sines)| norm(sines).atan2(*cosine));
+        (distance, angle)
     }
 
     /// The rows' values for the base attitude, the end effector's pose in the base frame and the

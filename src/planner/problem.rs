@@ -1,6 +1,6 @@
 //! A planning problem: robot, task, limits, cost and mesh, eq. (7) to (18).
 
-use super::{EndEffectorGoal, KeepOut, Momentum, Obstacle};
+use super::{EndEffectorGoal, KeepOut, Momentum, Obstacle, WayPoint, way_point};
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::{Planar, Space, Spatial};
 use crate::dynamics::{JointKind, Model};
@@ -26,6 +26,8 @@ pub struct Task {
     pub free_joints: Vec<bool>,
     /// Where the end effector is to be at t_f.
     pub end_effector: Option<EndEffectorGoal>,
+    /// Where the arm is to be on its way, in the order of time.
+    pub way_points: Vec<WayPoint>,
 }
 
 /// Limits (8) to (11). Free intervals where there is none.
@@ -159,6 +161,7 @@ impl Problem {
                 final_joints: goal.into(),
                 free_joints: vec![false; n],
                 end_effector: None,
+                way_points: Vec::new(),
             },
             limits: Limits {
                 joint_position: joints
@@ -252,7 +255,8 @@ impl Problem {
                 }
             }
         }
-        self.validate_goal(n, angles, lengths)?;
+        self.validate_goal(n)?;
+        way_point::validate(self)?;
         let turns = self.attitude_sizes().1;
         let turned = if turns == angles {
             "base angles"
@@ -361,7 +365,7 @@ impl Problem {
         Ok(())
     }
 
-    fn validate_goal(&self, n: usize, angles: usize, lengths: usize) -> Result<(), ProblemError> {
+    fn validate_goal(&self, n: usize) -> Result<(), ProblemError> {
         let task = &self.task;
         count("task.final.free", task.free_joints.len(), n, "joints")?;
         let Some(goal) = &task.end_effector else {
@@ -375,39 +379,7 @@ impl Problem {
             }
             return Ok(());
         };
-        const KEY: &str = "task.final.end_effector";
-        if self.robot.end_effector().is_none() {
-            let expected = "a robot with an end effector";
-            return Err(error(KEY, "a goal for the end effector", expected));
-        }
-        if goal.position.is_none() && goal.orientation.is_none() {
-            return Err(error(KEY, "neither", "a position, an orientation or both"));
-        }
-        for (name, values, size, what) in [
-            ("position", &goal.position, lengths, "base lengths"),
-            ("orientation", &goal.orientation, angles, "base angles"),
-        ] {
-            let key = format!("{KEY}.{name}");
-            if let Some(values) = values {
-                count(&key, values.len(), size, what)?;
-                for (i, value) in values.iter().enumerate() {
-                    if !value.is_finite() {
-                        return Err(error(indexed(&key, i, size), value, "a finite number"));
-                    }
-                }
-            }
-        }
-        let room = goal.position_tolerance;
-        if !(room.is_finite() && room >= 0.0) {
-            let key = format!("{KEY}.position_tolerance");
-            return Err(error(key, room, "a finite length, m, zero or above"));
-        }
-        let room = goal.orientation_tolerance;
-        if !(0.0..1.5).contains(&room) {
-            let key = format!("{KEY}.orientation_tolerance");
-            return Err(error(key, room, "an angle from 0 to below 1.5 rad"));
-        }
-        Ok(())
+        goal.validate("task.final.end_effector", &self.robot)
     }
 
     fn validate_ends(&self, n: usize) -> Result<(), ProblemError> {
@@ -517,7 +489,7 @@ impl Problem {
     }
 }
 
-fn error(
+pub(super) fn error(
     key: impl Into<String>,
     found: impl ToString,
     expected: impl Into<String>,
@@ -530,7 +502,7 @@ fn error(
 }
 
 /// The key of element `i`, or of the whole where there is only one.
-fn indexed(key: &str, i: usize, count: usize) -> String {
+pub(super) fn indexed(key: &str, i: usize, count: usize) -> String {
     if count == 1 {
         key.into()
     } else {
@@ -538,7 +510,12 @@ fn indexed(key: &str, i: usize, count: usize) -> String {
     }
 }
 
-fn count(key: &str, found: usize, expected: usize, what: &str) -> Result<(), ProblemError> {
+pub(super) fn count(
+    key: &str,
+    found: usize,
+    expected: usize,
+    what: &str,
+) -> Result<(), ProblemError> {
     if found == expected {
         return Ok(());
     }

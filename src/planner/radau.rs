@@ -11,6 +11,7 @@ use crate::collocation::MeshError;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Nlp, ipopt};
+use crate::ocp::Ocp;
 use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
 use crate::transcription::{Discretization, Patterns, Transcription};
 
@@ -127,9 +128,10 @@ impl Planner {
                 }
             }
             None => {
-                let path = JointPath::new(problem, Vec::new());
+                let path = JointPath::new(problem, &[]);
                 let duration = problem.task.duration.center();
-                let mesh = problem.mesh.first_mesh()?;
+                let fractions = system.formulation().way_point_fractions();
+                let mesh = problem.mesh.first_mesh()?.through(&fractions)?;
                 Start {
                     trajectory: along(system, duration, &path, mesh),
                     iterate: None,

@@ -86,7 +86,8 @@ impl<O: Ocp> Refinement<'_, O> {
     /// Where the settings give no mesh.
     pub fn straight_start(&self) -> Result<Start, crate::collocation::MeshError> {
         let formulation = self.ocp.formulation();
-        let mesh = self.settings.first_mesh()?;
+        let fractions = formulation.way_point_fractions();
+        let mesh = self.settings.first_mesh()?.through(&fractions)?;
         let (states, controls) = formulation.widths();
         let duration = formulation.duration.center();
         let trajectory = Discretization::sample(mesh, duration, states, controls, |part, x, u| {
@@ -106,13 +107,16 @@ impl<O: Ocp> Refinement<'_, O> {
         })
     }
 
-    /// Solves on the start's mesh, then on refined ones.
+    /// Solves on the start's mesh, with a breakpoint at every way-point, then on refined ones.
     ///
     /// The monitor is told of each step and can stop the loop. A failed solve ends it; the
     /// outcome then holds the last trajectory all the same.
     ///
     /// # Errors
     /// What the solver refuses before it begins.
+    ///
+    /// # Panics
+    /// Where the fractions of the way-points do not rise from above 0 to below 1.
     pub fn run(
         &self,
         start: &Start,
@@ -120,7 +124,7 @@ impl<O: Ocp> Refinement<'_, O> {
     ) -> Result<Outcome, ipopt::IpoptError> {
         let mut records: Vec<Record> = Vec::new();
         let mut statistics = Statistics::default();
-        let mut trajectory = start.trajectory.clone();
+        let mut trajectory = self.at_way_points(&start.trajectory);
         let mut previous: Option<(Mesh, Layout, Iterate)> = None;
         loop {
             let began = Instant::now();
@@ -203,7 +207,7 @@ impl<O: Ocp> Refinement<'_, O> {
             let halt = monitor(Event::Solved(&records[records.len() - 1])) == Control::Stop;
             match next {
                 Some((finer, _)) if !halt => {
-                    previous = Some((mesh, *program.layout(), solution.iterate));
+                    previous = Some((mesh, program.layout().clone(), solution.iterate));
                     trajectory = resample(&trajectory, finer);
                 }
                 _ => {
@@ -218,6 +222,19 @@ impl<O: Ocp> Refinement<'_, O> {
                     });
                 }
             }
+        }
+    }
+
+    /// The trajectory on a mesh with a breakpoint at every way-point; as it is where its mesh has
+    /// them all.
+    fn at_way_points(&self, start: &Discretization) -> Discretization {
+        let fractions = self.ocp.formulation().way_point_fractions();
+        let mesh = start.mesh.through(&fractions);
+        let mesh = mesh.expect("way-points rise between the ends");
+        if mesh == start.mesh {
+            start.clone()
+        } else {
+            resample(start, mesh)
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Evaluates an optimal control problem at all collocation points, each thing once a point.
 
 use super::functions::{Boundary, Node};
+use super::way_point::{Passage, passages};
 use super::{Layout, Patterns};
 use crate::autodiff::{Function, SparseDerivatives};
 use crate::collocation::Mesh;
@@ -23,6 +24,7 @@ pub(super) struct Evaluation<'a, O: Ocp> {
     pub first: Vec<f64>,
     pub end_values: Vec<f64>,
     pub end_first: Vec<f64>,
+    pub way_points: Vec<Passage<'a, O>>,
     have_values: bool,
     have_first: bool,
     inputs: Vec<f64>,
@@ -44,7 +46,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         let mut fractions = mesh.node_fractions();
         fractions.pop();
         Self {
-            layout,
+            way_points: passages(ocp, formulation, patterns, &layout),
             fixed_duration: formulation.duration.lower,
             fractions,
             values: vec![0.0; layout.points * node.outputs()],
@@ -59,6 +61,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
             ends,
             node_derivatives,
             end_derivatives,
+            layout,
         }
     }
 
@@ -120,6 +123,10 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         self.load_ends(x);
         self.end_derivatives
             .values(&self.ends, &self.end_inputs, &mut self.end_values);
+        let duration = self.duration(x);
+        for point in &mut self.way_points {
+            point.evaluate(x, duration);
+        }
         self.have_values = true;
     }
 
@@ -138,10 +145,15 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         self.load_ends(x);
         self.end_derivatives
             .jacobian(&self.ends, &self.end_inputs, &mut self.end_first);
+        let duration = self.duration(x);
+        for point in &mut self.way_points {
+            point.differentiate(x, duration);
+        }
         if !self
             .first
             .iter()
             .chain(&self.end_first)
+            .chain(self.way_points.iter().flat_map(|point| &point.first))
             .all(|d| d.is_finite())
         {
             return Err(Undefined {

@@ -1,7 +1,7 @@
-//! The two functions of an optimal control problem that derivatives are taken of.
+//! The functions of an optimal control problem that derivatives are taken of.
 
 use crate::autodiff::{Function, Scalar};
-use crate::ocp::{Ends, Formulation, Ocp, Point};
+use crate::ocp::{Ends, Formulation, Ocp, Passage, Point};
 
 /// One collocation point: (x, u, t) ↦ (f, C, ℒ).
 #[derive(Debug)]
@@ -117,5 +117,54 @@ impl<O: Ocp> Function for Boundary<'_, O> {
             scratch,
             rows,
         );
+    }
+}
+
+/// One way-point: (x, T) ↦ rows.
+#[derive(Debug)]
+pub(super) struct WayPoint<'a, O> {
+    pub ocp: &'a O,
+    /// Which one.
+    pub index: usize,
+    /// Fraction of the duration.
+    pub fraction: f64,
+    pub states: usize,
+    pub rows: usize,
+}
+
+impl<'a, O: Ocp> WayPoint<'a, O> {
+    pub fn new(ocp: &'a O, formulation: &Formulation, index: usize) -> Self {
+        Self {
+            ocp,
+            index,
+            fraction: formulation.way_points[index].fraction,
+            states: formulation.states.len(),
+            rows: formulation.way_points[index].rows.len(),
+        }
+    }
+}
+
+impl<O: Ocp> Function for WayPoint<'_, O> {
+    type Scratch<S: Scalar> = O::Scratch<S>;
+
+    fn inputs(&self) -> usize {
+        self.states + 1
+    }
+
+    fn outputs(&self) -> usize {
+        self.rows
+    }
+
+    fn scratch<S: Scalar>(&self) -> O::Scratch<S> {
+        self.ocp.scratch()
+    }
+
+    fn evaluate<S: Scalar>(&self, v: &[S], scratch: &mut O::Scratch<S>, out: &mut [S]) {
+        let passage = Passage {
+            way_point: self.index,
+            x: &v[..self.states],
+            t: v[self.states] * self.fraction,
+        };
+        self.ocp.way_point(passage, scratch, out);
     }
 }

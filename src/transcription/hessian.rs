@@ -26,6 +26,8 @@ pub(super) struct Hessian {
     /// Slot of each nonzero of each point's block; `usize::MAX` where it involves the time.
     node_slots: Vec<usize>,
     end_slots: Vec<usize>,
+    /// Slots and block of each way-point.
+    way_points: Vec<(Vec<usize>, Vec<f64>)>,
     duration: DurationTerms,
     half_width: Vec<f64>,
     quadrature: Vec<f64>,
@@ -61,6 +63,19 @@ impl Hessian {
                 slots.slot(a.max(b), a.min(b))
             })
             .collect();
+        let way_points = evaluation
+            .way_points
+            .iter()
+            .map(|point| {
+                let place = |&(i, j): &(usize, usize)| {
+                    let (a, b) = (point.columns[i], point.columns[j]);
+                    slots.slot(a.max(b), a.min(b))
+                };
+                let slots: Vec<usize> = point.sparsity().hessian.iter().map(place).collect();
+                let block = vec![0.0; slots.len()];
+                (slots, block)
+            })
+            .collect();
         let mut duration = DurationTerms::default();
         if layout.free_duration {
             let last = layout.duration();
@@ -81,6 +96,7 @@ impl Hessian {
             columns: slots.columns,
             node_slots,
             end_slots,
+            way_points,
             duration,
             half_width: half_widths(mesh),
             quadrature: quadrature(mesh),
@@ -131,6 +147,15 @@ impl Hessian {
         for (h, &slot) in self.end_block.iter().zip(&self.end_slots) {
             values[slot] += h;
         }
+        let points = evaluation.way_points.iter_mut().zip(&mut self.way_points);
+        for (w, (point, (slots, block))) in points.enumerate() {
+            let first = layout.way_point(w, 0);
+            let weights = &multipliers[first..first + point.values.len()];
+            point.hessian(x, duration, weights, block);
+            for (h, &slot) in block.iter().zip(slots.iter()) {
+                values[slot] += h;
+            }
+        }
         if values.iter().all(|h| h.is_finite()) {
             Ok(())
         } else {
@@ -151,7 +176,8 @@ impl Hessian {
         cost: usize,
     ) {
         let half = duration * self.half_width[k];
-        let rows = &multipliers[layout.defect(k, 0)..layout.defect(k + 1, 0)];
+        let first = layout.defect(k, 0);
+        let rows = &multipliers[first..first + layout.states + layout.path];
         for (i, (weight, &multiplier)) in self.weights.iter_mut().zip(rows).enumerate() {
             *weight = if i < layout.states {
                 -half * multiplier

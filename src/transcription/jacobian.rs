@@ -22,6 +22,8 @@ enum Term {
     PathByDuration { point: usize, slot: usize },
     /// Derivative `slot` of the ends.
     End { slot: usize },
+    /// Derivative `slot` of a way-point.
+    WayPoint { way_point: usize, slot: usize },
 }
 
 /// The constraint Jacobian of a transcription: triplets, constant parts and terms to add.
@@ -47,6 +49,7 @@ impl Jacobian {
         };
         for s in 0..mesh.segments() {
             for i in 0..mesh.rule(s).len() {
+                jacobian.way_points(layout, evaluation, mesh.start(s) + i);
                 jacobian.defects(layout, mesh, evaluation, s, i);
                 jacobian.path(layout, evaluation, mesh.start(s) + i);
             }
@@ -131,6 +134,27 @@ impl Jacobian {
         }
     }
 
+    /// Rows of the way-point at the node `point`, where there is one.
+    fn way_points<O: Ocp>(
+        &mut self,
+        layout: &Layout,
+        evaluation: &Evaluation<'_, O>,
+        point: usize,
+    ) {
+        let here = layout.way_point_nodes().position(|node| node == point);
+        let Some(way_point) = here else { return };
+        let passage = &evaluation.way_points[way_point];
+        let mut slot = 0;
+        for (r, inputs) in passage.sparsity().jacobian.iter().enumerate() {
+            let row = layout.way_point(way_point, r);
+            for &input in inputs {
+                let term = Term::WayPoint { way_point, slot };
+                self.push(row, passage.columns[input], 0.0, Some(term));
+                slot += 1;
+            }
+        }
+    }
+
     fn boundary<O: Ocp>(&mut self, layout: &Layout, evaluation: &Evaluation<'_, O>) {
         let mut slot = 0;
         for b in 0..layout.boundary {
@@ -167,6 +191,7 @@ impl Jacobian {
                     evaluation.fraction(point) * first(point, slot)
                 }
                 Term::End { slot } => evaluation.end_first[slot],
+                Term::WayPoint { way_point, slot } => evaluation.way_points[way_point].first[slot],
             };
         }
     }

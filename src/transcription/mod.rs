@@ -10,8 +10,9 @@ mod layout;
 mod names;
 mod patterns;
 mod program;
+mod way_point;
 
 pub use discretization::Discretization;
-pub use layout::Layout;
+pub use layout::{Layout, Row};
 pub use patterns::Patterns;
 pub use program::Transcription;

@@ -1,6 +1,6 @@
 //! What a person calls each variable and row of the programme.
 
-use super::Layout;
+use super::{Layout, Row};
 use crate::collocation::Mesh;
 use crate::ocp::Formulation;
 
@@ -42,22 +42,21 @@ impl Names {
     }
 
     pub fn row(&self, layout: &Layout, index: usize) -> String {
-        if index >= layout.boundary(0) {
-            return self.formulation.boundary[index - layout.boundary(0)]
-                .name
-                .clone();
-        }
-        let width = layout.states + layout.path;
-        let (k, i) = (index / width, index % width);
-        if i < layout.states {
-            format!(
+        let formulation = &self.formulation;
+        match layout.row(index) {
+            Row::Defect { point, state } => format!(
                 "defect of {}, {}",
-                self.formulation.states[i].name,
-                self.place(layout, k)
-            )
-        } else {
-            let row = &self.formulation.path[i - layout.states];
-            format!("{}, {}", row.name, self.place(layout, k))
+                formulation.states[state].name,
+                self.place(layout, point)
+            ),
+            Row::Path { point, row } => {
+                let row = &formulation.path[row];
+                format!("{}, {}", row.name, self.place(layout, point))
+            }
+            Row::WayPoint { way_point, row } => {
+                formulation.way_points[way_point].rows[row].name.clone()
+            }
+            Row::Boundary(row) => formulation.boundary[row].name.clone(),
         }
     }
 }

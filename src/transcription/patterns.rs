@@ -1,14 +1,15 @@
 //! Sparsity of a problem's functions, found once and used on every mesh.
 
-use super::functions::{Boundary, Node};
+use super::functions::{Boundary, Node, WayPoint};
 use crate::autodiff::{Function, Sparsity};
 use crate::ocp::{Formulation, Interval, Ocp};
 
-/// Which derivatives of (f, C, ℒ) and of (E, Φ) are ever nonzero.
+/// Which derivatives of (f, C, ℒ), of (E, Φ) and of each way-point's rows are ever nonzero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Patterns {
     pub(super) node: Sparsity,
     pub(super) ends: Sparsity,
+    pub(super) way_points: Vec<Sparsity>,
 }
 
 impl Patterns {
@@ -22,10 +23,19 @@ impl Patterns {
         node_used[node.time()] = free_duration;
         let mut end_used = vec![true; ends.inputs()];
         end_used[ends.duration()] = free_duration;
+        let points = (0..formulation.way_points.len())
+            .map(|index| WayPoint::new(ocp, &formulation, index))
+            .collect::<Vec<_>>();
+        let mut point_used = vec![true; formulation.states.len() + 1];
+        point_used[formulation.states.len()] = free_duration;
         if ocp.has_branches() {
             return Self {
                 node: Sparsity::dense(node.outputs(), &node_used),
                 ends: Sparsity::dense(ends.outputs(), &end_used),
+                way_points: points
+                    .iter()
+                    .map(|point| Sparsity::dense(point.rows, &point_used))
+                    .collect(),
             };
         }
         let mut draw = Draw::new(&formulation);
@@ -45,6 +55,17 @@ impl Patterns {
                 }
                 v[ends.duration()] = draw.within(&formulation.duration);
             }),
+            way_points: points
+                .iter()
+                .map(|point| {
+                    Sparsity::sampled(point, &point_used, |v| {
+                        for (value, quantity) in v.iter_mut().zip(&formulation.states) {
+                            *value = draw.within(&quantity.bounds);
+                        }
+                        v[point.states] = draw.within(&formulation.duration);
+                    })
+                })
+                .collect(),
         }
     }
 }

@@ -7,7 +7,7 @@ use super::names::Names;
 use super::{Discretization, Layout, Patterns};
 use crate::collocation::Mesh;
 use crate::nlp::{Nlp, Size, Undefined};
-use crate::ocp::{Formulation, Ocp};
+use crate::ocp::{Formulation, Interval, Ocp};
 
 /// An optimal control problem on one mesh: minimise (25) subject to (26) and (27).
 pub struct Transcription<'a, O: Ocp> {
@@ -26,7 +26,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
     pub fn new(ocp: &'a O, patterns: &Patterns, mesh: Mesh) -> Self {
         let formulation = ocp.formulation();
         let layout = Layout::new(&formulation, &mesh);
-        let evaluation = Evaluation::new(ocp, &formulation, patterns, &mesh, layout);
+        let evaluation = Evaluation::new(ocp, &formulation, patterns, &mesh, layout.clone());
         Self {
             names: Names::new(formulation.clone(), &mesh),
             quadrature: jacobian::quadrature(&mesh),
@@ -106,6 +106,18 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
                     (bounds.lower, bounds.upper);
             }
         }
+        for (point, node) in self
+            .formulation
+            .way_points
+            .iter()
+            .zip(layout.way_point_nodes())
+        {
+            for (i, bounds) in point.states.iter().enumerate() {
+                let v = layout.state(node, i);
+                let bounds = bounds.intersect(&Interval::new(lower[v], upper[v]));
+                (lower[v], upper[v]) = (bounds.lower, bounds.upper);
+            }
+        }
         for k in 0..layout.points {
             for (j, control) in self.formulation.controls.iter().enumerate() {
                 lower[layout.control(k, j)] = control.bounds.lower;
@@ -126,6 +138,12 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
             for (p, row) in self.formulation.path.iter().enumerate() {
                 lower[layout.path(k, p)] = row.bounds.lower;
                 upper[layout.path(k, p)] = row.bounds.upper;
+            }
+        }
+        for (w, point) in self.formulation.way_points.iter().enumerate() {
+            for (r, row) in point.rows.iter().enumerate() {
+                lower[layout.way_point(w, r)] = row.bounds.lower;
+                upper[layout.way_point(w, r)] = row.bounds.upper;
             }
         }
         for (b, row) in self.formulation.boundary.iter().enumerate() {
@@ -197,6 +215,10 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
                 values[rows + layout.states..rows + layout.states + layout.path]
                     .copy_from_slice(&outputs[layout.states..layout.states + layout.path]);
             }
+        }
+        for (w, point) in self.evaluation.way_points.iter().enumerate() {
+            let first = layout.way_point(w, 0);
+            values[first..first + point.values.len()].copy_from_slice(&point.values);
         }
         values[layout.boundary(0)..]
             .copy_from_slice(&self.evaluation.end_values[..layout.boundary]);

@@ -1,0 +1,76 @@
+//! Evaluates the rows of the way-points, each at its own node.
+
+use super::functions::WayPoint;
+use super::{Layout, Patterns};
+use crate::autodiff::{Function, SparseDerivatives, Sparsity};
+use crate::ocp::{Formulation, Ocp};
+
+/// One way-point with its values and derivatives at the current iterate.
+pub(super) struct Passage<'a, O: Ocp> {
+    function: WayPoint<'a, O>,
+    derivatives: SparseDerivatives<WayPoint<'a, O>>,
+    /// Variable behind each input: the states at its node, then the duration.
+    pub columns: Vec<usize>,
+    pub values: Vec<f64>,
+    /// Jacobian nonzeros, row by row.
+    pub first: Vec<f64>,
+    inputs: Vec<f64>,
+}
+
+/// The way-points of a problem.
+pub(super) fn passages<'a, O: Ocp>(
+    ocp: &'a O,
+    formulation: &Formulation,
+    patterns: &Patterns,
+    layout: &Layout,
+) -> Vec<Passage<'a, O>> {
+    layout
+        .way_point_nodes()
+        .enumerate()
+        .map(|(index, node)| {
+            let function = WayPoint::new(ocp, formulation, index);
+            let derivatives = SparseDerivatives::new(&function, patterns.way_points[index].clone());
+            let states = (0..layout.states).map(|i| layout.state(node, i));
+            Passage {
+                columns: states.chain([layout.duration()]).collect(),
+                values: vec![0.0; function.rows],
+                first: vec![0.0; derivatives.jacobian_nonzeros()],
+                inputs: vec![0.0; function.inputs()],
+                derivatives,
+                function,
+            }
+        })
+        .collect()
+}
+
+impl<O: Ocp> Passage<'_, O> {
+    pub fn sparsity(&self) -> &Sparsity {
+        self.derivatives.sparsity()
+    }
+
+    fn load(&mut self, x: &[f64], duration: f64) {
+        let states = self.function.states;
+        let node = self.columns[0];
+        self.inputs[..states].copy_from_slice(&x[node..node + states]);
+        self.inputs[states] = duration;
+    }
+
+    pub fn evaluate(&mut self, x: &[f64], duration: f64) {
+        self.load(x, duration);
+        self.derivatives
+            .values(&self.function, &self.inputs, &mut self.values);
+    }
+
+    pub fn differentiate(&mut self, x: &[f64], duration: f64) {
+        self.load(x, duration);
+        self.derivatives
+            .jacobian(&self.function, &self.inputs, &mut self.first);
+    }
+
+    /// Weighted Hessian into `out`.
+    pub fn hessian(&mut self, x: &[f64], duration: f64, weights: &[f64], out: &mut [f64]) {
+        self.load(x, duration);
+        self.derivatives
+            .hessian(&self.function, &self.inputs, weights, out);
+    }
+}
