@@ -64,7 +64,9 @@ fn the_bound_that_was_found_does_work() {
     let mut problem = problems::published();
     problem.limits.base_attitude = vec![Interval::symmetric(29.2_f64.to_radians())];
     problem.limits.final_base_attitude = problem.limits.base_attitude.clone();
+    // On this mesh, whose nodes alone are looked at.
     problem.mesh.tolerance = 1.0;
+    problem.mesh.bound_tolerance = 1e3;
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Solved, "{:?}", plan.diagnosis);
     assert!(plan.metrics.max_base_attitude.to_degrees() < 29.2 + 1e-3);

@@ -3,7 +3,7 @@
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::nlp::{self, Control};
 use ffsm_ipopt::ocp::{Ends, Formulation, Interval, Ocp, Passage, Point, Quantity, WayPoint};
-use ffsm_ipopt::refine::{Method, Outcome, Refinement, Settings};
+use ffsm_ipopt::refine::{Bounded, Method, Outcome, Refinement, Settings};
 use ffsm_ipopt::transcription::Patterns;
 
 /// Solves from the straight line and refines to the tolerance.
@@ -144,6 +144,34 @@ fn bryson_denham_is_exact_when_breakpoints_stand_at_the_junctions() {
         "J = {}",
         outcome.objective
     );
+}
+
+#[test]
+fn bounds_exceeded_between_the_points_are_refined_away() {
+    let limit = 0.1;
+    // The error estimate is content with anything.
+    let coarse = solve(&bryson_denham(limit), &refined(4, 3, 1e3, 1));
+    let [found] = &coarse.violations[..] else {
+        panic!("{:?}", coarse.violations);
+    };
+    assert_eq!(found.what, Bounded::State(0));
+    assert!((found.value - limit - found.excess).abs() < 1e-15);
+    assert!((found.relative - found.excess / limit).abs() < 1e-15);
+    assert_eq!(coarse.records[0].max_violation, found.relative);
+    let (mut x, mut u) = ([0.0; 2], [0.0]);
+    coarse.trajectory.at_fraction(found.t, &mut x, &mut u);
+    assert!((x[0] - found.value).abs() < 1e-12);
+
+    let fine = solve(&bryson_denham(limit), &refined(4, 3, 1e3, 20));
+    assert!(fine.violations.is_empty(), "{:?}", fine.violations);
+    let highest = (0..=10_000).fold(0.0_f64, |highest, k| {
+        let fraction = f64::from(k) / 10_000.0;
+        fine.trajectory.at_fraction(fraction, &mut x, &mut u);
+        highest.max(x[0])
+    });
+    assert!(highest < limit * (1.0 + 1.2e-3), "{highest}");
+    // A node stands where the first mesh was outside the farthest.
+    assert!(fine.records[1].breakpoints.contains(&found.t));
 }
 
 #[test]

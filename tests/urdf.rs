@@ -786,3 +786,36 @@ fn base_without_mass() {
          axis; expected a heavier root link, or a spacecraft under it: [base] with mass and inertia"
     );
 }
+
+#[test]
+fn pairs_on_links_that_have_become_part_of_others() {
+    // The boom is locked: `lower`, `adapter` and `tool0` are part of `upper`.
+    let robot = "{ file = \"arm.urdf\", lock = { boom = 0.3 } }";
+    let pairs = "\n[[limits.keep_out]]\nname = \"tool\"\n\
+         sphere = { body = \"tool0\", center = [0, 0, 0.2], radius = 0.1 }\n\
+         from = { body = \"hull\", center = [0, 0, -1], radius = 0.2 }\n";
+    let folder = folder(ARM, robot, 1, pairs);
+    let file = load(&folder);
+    let sphere = &file.problem.limits.keep_out[0].sphere;
+    assert_eq!(sphere.joint, Some(0));
+    // The tool's z axis is the arm's x axis.
+    let expected = [0.5 + 0.3 + 0.4 + 0.1 + 0.2, 0.0, 0.0];
+    assert_near(&Vector3::from(sphere.center), expected);
+    let check = folder.run(&["check", "case.toml"]).stdout;
+    assert!(check.contains("  end effector        tool0\n"), "{check}");
+    let line =
+        "    kept apart        tool: a sphere of 10 cm on upper from a sphere of 20 cm on hull";
+    assert!(check.contains(line), "{check}");
+    // Two links that are one body now cannot be kept apart.
+    let same = edited(pairs, "\"hull\"", "\"lower\"");
+    assert!(
+        complaint(&self::folder(ARM, robot, 1, &same)).ends_with(
+            "limits.keep_out[0].from.body: the same body; expected two different bodies"
+        )
+    );
+    let unknown = edited(pairs, "\"tool0\"", "\"tool9\"");
+    assert!(complaint(&self::folder(ARM, robot, 1, &unknown)).ends_with(
+        "limits.keep_out[0].sphere.body: \"tool9\"; expected a body of the robot; did you \
+             mean 'tool0'?"
+    ));
+}

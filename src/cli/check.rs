@@ -7,7 +7,9 @@ use crate::config::{Overrides, ProblemFile};
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::ocp::Interval;
-use crate::planner::{EndEffectorGoal, GoalFrame, Problem, straight_line};
+use crate::planner::{
+    EndEffectorGoal, GoalFrame, KeepOut, Moment, Obstacle, Problem, Sphere, WayPoint, straight_line,
+};
 use crate::refine::Method;
 use crate::report::{Lines, rotation};
 use clap::Args;
@@ -26,7 +28,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let file = ProblemFile::load(&arguments.problem, &Overrides::default())?;
     let problem = &file.problem;
     let mut lines = Lines::default();
-    robot(&mut lines, problem, &file.robot.path);
+    robot(&mut lines, &file);
     task(&mut lines, problem);
     limits(&mut lines, problem);
     cost(&mut lines, problem);
@@ -43,7 +45,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-fn robot(lines: &mut Lines, problem: &Problem, path: &str) {
+fn robot(lines: &mut Lines, file: &ProblemFile) {
+    let (problem, path) = (&file.problem, &file.robot.path);
     let robot = &problem.robot;
     let n = robot.joint_count();
     let (angles, lengths) = Problem::base_sizes(robot);
@@ -56,6 +59,9 @@ fn robot(lines: &mut Lines, problem: &Problem, path: &str) {
         .collect();
     lines.add("bodies", format!("{}: {}", bodies.len(), bodies.join(", ")));
     lines.add("total mass", format!("{} kg", rounded(robot.total_mass())));
+    if let Some(name) = &file.end_effector {
+        lines.add("end effector", name);
+    }
     let motion = match (robot.plane(), problem.attitude) {
         (Some(_), _) => "planar; the base attitude is one angle",
         (None, SpatialAttitude::RollPitchYaw) => "spatial; the base attitude is roll, pitch, yaw",
@@ -107,7 +113,10 @@ fn task(lines: &mut Lines, problem: &Problem) {
         lines.add(&format!("joint {}", joint.name), motion);
     }
     if let Some(goal) = &task.end_effector {
-        lines.add("end effector", end_effector(goal));
+        lines.add("goal", end_effector(goal));
+    }
+    for point in &task.way_points {
+        lines.add("way-point", way_point(problem, point));
     }
     let momentum = &task.initial_momentum;
     if !momentum.is_zero() {
@@ -121,7 +130,30 @@ fn task(lines: &mut Lines, problem: &Problem) {
     }
 }
 
-/// A task-space goal in one line.
+/// A way-point in one line.
+fn way_point(problem: &Problem, point: &WayPoint) -> String {
+    let mut parts = vec![match point.at {
+        Moment::Time(time) => format!("at {} s", rounded(time)),
+        Moment::Fraction(part) => format!("at {} of the duration", rounded(part)),
+    }];
+    type Of = fn(JointKind) -> Quantity;
+    for (values, quantity) in [
+        (&point.joints, Quantity::Position as Of),
+        (&point.joint_rates, Quantity::Rate),
+    ] {
+        let joints = problem.robot.joints().iter().zip(values);
+        parts.extend(joints.filter_map(|(joint, value)| {
+            let value = quantity(joint.kind).show((*value)?);
+            Some(format!("{} {value}", joint.name))
+        }));
+    }
+    if let Some(goal) = &point.end_effector {
+        parts.push(format!("end effector {}", end_effector(goal)));
+    }
+    parts.join(", ")
+}
+
+/// A task-space goal in one line, but for when.
 fn end_effector(goal: &EndEffectorGoal) -> String {
     let list = |values: &[f64], quantity: Quantity| {
         let shown: Vec<String> = values.iter().map(|v| quantity.show(*v)).collect();
@@ -152,7 +184,7 @@ fn end_effector(goal: &EndEffectorGoal) -> String {
     let frame = match goal.frame {
         GoalFrame::Inertial => "inertial axes, from the mass centre at the start",
         GoalFrame::Start => "the base frame at the start",
-        GoalFrame::Base => "the base frame at the end",
+        GoalFrame::Base => "the base frame at that time",
     };
     format!("{}; in {frame}", parts.join(", "))
 }
@@ -180,13 +212,8 @@ fn limits(lines: &mut Lines, problem: &Problem) {
             .collect();
         lines.add(&format!("  {label}"), by_name(&names, &shown));
     }
-    if !limits.keep_out.is_empty() {
-        let pairs: Vec<&str> = limits
-            .keep_out
-            .iter()
-            .map(|pair| pair.name.as_str())
-            .collect();
-        lines.add("  kept apart", pairs.join(", "));
+    for pair in &limits.keep_out {
+        lines.add("  kept apart", keep_out(problem, pair));
     }
     let (angles, axes) = base_names(problem);
     for (label, names, bounds, quantity) in [
@@ -217,6 +244,29 @@ fn limits(lines: &mut Lines, problem: &Problem) {
             .collect();
         lines.add(&format!("  {label}"), by_name(names, &shown));
     }
+}
+
+/// A pair kept apart in one line.
+fn keep_out(problem: &Problem, pair: &KeepOut) -> String {
+    let length = Quantity::Position(JointKind::Prismatic);
+    let sphere = |sphere: &Sphere| {
+        let body = match sphere.joint {
+            Some(joint) => &problem.robot.joints()[joint].body.name,
+            None => &problem.robot.base().name,
+        };
+        match sphere.radius {
+            0.0 => format!("a point of {body}"),
+            radius => format!("a sphere of {} on {body}", length.show(radius)),
+        }
+    };
+    let from = match &pair.from {
+        Obstacle::Sphere(other) => sphere(other),
+        Obstacle::Box { half, .. } => {
+            let edges = half.map(|h| rounded(200.0 * h)).join(" × ");
+            format!("a box of {edges} cm on {}", problem.robot.base().name)
+        }
+    };
+    format!("{}: {} from {from}", pair.name, sphere(&pair.sphere))
 }
 
 /// What a bound on the attitude is about where there are no angles.
@@ -272,6 +322,9 @@ fn cost(lines: &mut Lines, problem: &Problem) {
         }
     })
     .collect();
+    if cost.duration > 0.0 {
+        terms.push(format!("{} t_f", rounded(cost.duration)));
+    }
     if cost.rate_matrix.is_some() {
         let rate = if turned { "ω" } else { "η̇" };
         terms.push(format!("∫[{rate}, θ̇]ᵀΛ[{rate}, θ̇] with the full matrix"));

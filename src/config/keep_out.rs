@@ -3,11 +3,12 @@
 use super::ConfigError;
 use super::document::quoted;
 use super::item::{Item, hint};
-use crate::dynamics::Model;
+use super::robot::Robot;
 use crate::planner::{KeepOut, Obstacle, Sphere};
+use nalgebra::Vector3;
 
 /// The array of pairs.
-pub(super) fn read(item: &Item<'_>, robot: &Model) -> Result<Vec<KeepOut>, ConfigError> {
+pub(super) fn read(item: &Item<'_>, robot: &Robot) -> Result<Vec<KeepOut>, ConfigError> {
     let expected = "tables [[limits.keep_out]], each with sphere and from";
     let pairs = item
         .as_elements()
@@ -15,10 +16,10 @@ pub(super) fn read(item: &Item<'_>, robot: &Model) -> Result<Vec<KeepOut>, Confi
     pairs.iter().map(|pair| one(pair, robot)).collect()
 }
 
-fn one(item: &Item<'_>, robot: &Model) -> Result<KeepOut, ConfigError> {
+fn one(item: &Item<'_>, robot: &Robot) -> Result<KeepOut, ConfigError> {
     let section = item.section(&["name", "sphere", "from"])?;
     let expected = "a table with body, center and radius";
-    let sphere = sphere(section.require("sphere", expected)?, robot)?;
+    let (sphere, carrier) = sphere(section.require("sphere", expected)?, robot)?;
     let expected = "a table with body, center and radius, or with center and half for a box";
     let from = section.require("from", expected)?;
     let boxed = from
@@ -32,39 +33,25 @@ fn one(item: &Item<'_>, robot: &Model) -> Result<KeepOut, ConfigError> {
         let half = section.require("half", expected)?.triple(expected)?;
         Obstacle::Box { center, half }
     } else {
-        Obstacle::Sphere(self::sphere(from, robot)?)
+        Obstacle::Sphere(self::sphere(from, robot)?.0)
     };
     let name = match section.get("name") {
         Some(item) => item.text("a string")?.into(),
-        None => format!("clearance of {}", carrier(robot, sphere.joint)),
+        None => format!("clearance of {carrier}"),
     };
     Ok(KeepOut { name, sphere, from })
 }
 
-fn carrier(robot: &Model, joint: Option<usize>) -> &str {
-    match joint {
-        Some(j) => &robot.joints()[j].body.name,
-        None => &robot.base().name,
-    }
-}
-
-fn sphere(item: &Item<'_>, robot: &Model) -> Result<Sphere, ConfigError> {
+/// A sphere, in the frame of the body that carries it, and the name it was given by: that of a
+/// body, or of one that has become part of another.
+fn sphere<'a>(item: &Item<'a>, robot: &Robot) -> Result<(Sphere, &'a str), ConfigError> {
     let section = item.section(&["body", "center", "radius"])?;
     let expected = "a body of the robot";
     let body = section.require("body", expected)?;
     let name = body.text(expected)?;
-    let names: Vec<&str> = robot
-        .joints()
-        .iter()
-        .map(|j| j.body.name.as_str())
-        .collect();
-    let joint = match names.iter().position(|known| *known == name) {
-        Some(j) => Some(j),
-        None if name == "base" || name == robot.base().name => None,
-        None => {
-            let all = [&names[..], &[robot.base().name.as_str()]].concat();
-            return Err(body.error(quoted(name), format!("{expected}; {}", hint(name, &all))));
-        }
+    let Some((joint, placement)) = robot.body(name) else {
+        let names = robot.body_names();
+        return Err(body.error(quoted(name), format!("{expected}; {}", hint(name, &names))));
     };
     let expected = "[x, y, z] in the body's frame, m";
     let center = match section.get("center") {
@@ -73,9 +60,11 @@ fn sphere(item: &Item<'_>, robot: &Model) -> Result<Sphere, ConfigError> {
     };
     let expected = "a finite length, m, zero or above";
     let radius = section.require("radius", expected)?.number(expected)?;
-    Ok(Sphere {
+    let center = placement.rotation * Vector3::from(center) + placement.translation;
+    let sphere = Sphere {
         joint,
-        center,
+        center: center.into(),
         radius,
-    })
+    };
+    Ok((sphere, name))
 }

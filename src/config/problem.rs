@@ -22,6 +22,8 @@ pub struct ProblemFile {
     pub overrides: Vec<String>,
     /// The robot's file.
     pub robot: RobotFile,
+    /// The body at whose frame the end effector is; `None` where the robot has none.
+    pub end_effector: Option<String>,
     /// What a user should know of how the files were read, though nothing is wrong; a line each.
     pub notes: Vec<String>,
     document: Node,
@@ -79,6 +81,7 @@ impl ProblemFile {
         let (problem, robot, note) = read(&document, path, files)?;
         let file = Self {
             notes: robot.notes(&problem).into_iter().chain(note).collect(),
+            end_effector: robot.end_effector(),
             problem,
             path: source,
             text,
@@ -95,14 +98,22 @@ impl ProblemFile {
     /// that have none: no torque belongs to a motion there.
     fn refuse_singular(&self) -> Result<(), ConfigError> {
         let Problem { robot, task, .. } = &self.problem;
-        let mut ends = vec![("task.initial.joints", &task.initial_joints)];
+        let mut ends = vec![(
+            "task.initial.joints".to_owned(),
+            task.initial_joints.clone(),
+        )];
+        for (i, point) in task.way_points.iter().enumerate() {
+            if let Some(joints) = point.joints.iter().copied().collect() {
+                ends.push((format!("task.way_points[{i}].joints"), joints));
+            }
+        }
         if !task.free_joints.contains(&true) {
-            ends.push(("task.final.joints", &task.final_joints));
+            ends.push(("task.final.joints".to_owned(), task.final_joints.clone()));
         }
         for (key, joints) in ends {
-            if let Some(joint) = robot.inert_joint(joints) {
+            if let Some(joint) = robot.inert_joint(&joints) {
                 return Err(self.blame(ProblemError {
-                    key: key.into(),
+                    key,
                     found: format!(
                         "joint '{}' can move there without moving any mass",
                         robot.joints()[joint].name
@@ -187,7 +198,6 @@ fn read(
         position: lengths,
     };
     if let Some(item) = root.get("limits") {
-        let robot = problem.robot.clone();
         tables::limits(item, &mut problem.limits, &robot, &joints, &base)?;
     }
     if let Some(item) = root.get("cost") {

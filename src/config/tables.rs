@@ -5,9 +5,9 @@ use super::document::{Value, quoted};
 use super::goal;
 use super::item::Item;
 use super::keep_out;
+use super::robot::Robot;
 use super::values::Components;
 use super::way_point;
-use crate::dynamics::Model;
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::planner::{Cost, Limits, Momentum, Task};
@@ -106,7 +106,7 @@ pub(super) struct BaseComponents {
 pub(super) fn limits(
     item: &Item<'_>,
     limits: &mut Limits,
-    robot: &Model,
+    robot: &Robot,
     joints: &Components,
     base: &BaseComponents,
 ) -> Result<(), ConfigError> {
@@ -205,6 +205,7 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         "segments",
         "points",
         "tolerance",
+        "bound_tolerance",
         "max_iterations",
         "max_points",
         "lambda1",
@@ -239,6 +240,7 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
     }
     for (name, value) in [
         ("tolerance", &mut mesh.tolerance),
+        ("bound_tolerance", &mut mesh.bound_tolerance),
         ("lambda1", &mut mesh.lambda1),
         ("lambda2", &mut mesh.lambda2),
         ("r_max", &mut mesh.r_max),

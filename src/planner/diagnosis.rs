@@ -284,7 +284,6 @@ pub(super) fn findings<Sp: Space>(
     trajectory: &Discretization,
 ) -> Vec<LimitFinding> {
     let formulation = system.formulation();
-    let (n, angles) = (problem.robot.joint_count(), system.attitude().count());
     let planned = super::trajectory::trajectory(system, trajectory);
     let column = |rows: &[Vec<f64>], i: usize| rows.iter().map(|row| row[i]).collect::<Vec<_>>();
     let state_rows: Vec<Vec<f64>> = (0..=trajectory.mesh.points())
@@ -304,14 +303,8 @@ pub(super) fn findings<Sp: Space>(
             let mut at_way_point = None;
             let (key, component, bound, values) = match member {
                 Limited::State(i) => {
-                    let key = if i < angles {
-                        "limits.base_attitude"
-                    } else if i < angles + n {
-                        "limits.joint_position"
-                    } else {
-                        "limits.joint_velocity"
-                    };
                     let state = &formulation.states[i];
+                    let key = system.state_limit(i).0;
                     (key, &state.name, state.bounds, column(&state_rows, i))
                 }
                 Limited::Terminal(i) => (
@@ -464,16 +457,20 @@ pub(super) fn summary_with(limits: &[LimitFinding], verb: &str) -> String {
 /// The joint a bound is about; `None` for the base and for what is about no single joint.
 fn member_joint<Sp: Space>(system: &FreeFloating<Sp>, member: Limited) -> Option<usize> {
     match member {
-        Limited::State(i) | Limited::Terminal(i) | Limited::Passed(_, i) => i
-            .checked_sub(system.attitude().count())
-            .map(|k| k % system.joint_count()),
+        Limited::State(i) | Limited::Terminal(i) | Limited::Passed(_, i) => system.state_limit(i).1,
         Limited::Control(j) => Some(j),
         Limited::Path(p) => system.path_limit(p).1,
         Limited::Boundary(_) | Limited::WayPoint(..) => None,
     }
 }
 
-fn unit(problem: &Problem, key: &str, component: &str, joint: Option<usize>) -> &'static str {
+/// Unit of a bound: of a quantity of the problem file's key `key`, and of a joint where it is one's.
+pub(super) fn unit(
+    problem: &Problem,
+    key: &str,
+    component: &str,
+    joint: Option<usize>,
+) -> &'static str {
     if joint.is_none() && key.starts_with("task.") {
         // Turns are bounded by their sines.
         return if component.contains("turn") { "1" } else { "m" };
@@ -494,12 +491,17 @@ fn unit(problem: &Problem, key: &str, component: &str, joint: Option<usize>) -> 
     }
 }
 
-/// A bound as a person reads it: angles in degrees.
+/// Factor and unit by which a person reads a quantity: angles in degrees.
+pub(super) fn readable(unit: &str) -> (f64, String) {
+    match unit.strip_prefix("rad") {
+        Some(rest) => (1f64.to_degrees(), format!("°{rest}")),
+        None => (1.0, format!(" {unit}")),
+    }
+}
+
+/// A bound as a person reads it.
 fn shown(finding: &LimitFinding, bound: &Interval) -> String {
-    let (factor, unit) = match finding.unit.strip_prefix("rad") {
-        Some(rest) => (180.0 / std::f64::consts::PI, format!("°{rest}")),
-        None => (1.0, format!(" {}", finding.unit)),
-    };
+    let (factor, unit) = readable(finding.unit);
     if finding.component == ROTATION {
         format!("{:.2}{unit}", bound.upper * factor)
     } else if bound.lower == -bound.upper {

@@ -144,6 +144,22 @@ impl<Sp: Space> FreeFloating<Sp> {
         }
     }
 
+    /// Key in the problem file of the limit on state `i` along the path, and the joint it is about.
+    pub fn state_limit(&self, i: usize) -> (&'static str, Option<usize>) {
+        let n = self.joint_count();
+        match i.checked_sub(self.attitude.count()) {
+            None => ("limits.base_attitude", None),
+            Some(j) if j < n => ("limits.joint_position", Some(j)),
+            Some(j) => ("limits.joint_velocity", Some(j - n)),
+        }
+    }
+
+    /// How far the pair behind path row `p` is too near where the row has that value, m.
+    pub(super) fn keep_out_depth(&self, p: usize, value: f64) -> f64 {
+        let first = self.formulation.path.len() - self.keep_out.len();
+        self.keep_out[p - first].depth(value)
+    }
+
     /// Key in the problem file of what is behind boundary row `b`.
     pub fn boundary_key(&self, b: usize) -> &'static str {
         let goals = self.goal_rows();

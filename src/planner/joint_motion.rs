@@ -1,6 +1,7 @@
 //! From a motion of the joints alone to a complete plan: the base follows by momentum.
 
 use super::diagnosis::{findings, summary_with};
+use super::reached;
 use super::trajectory::{metrics, trajectory};
 use super::{
     CostTerms, Diagnosis, FreeFloating, LimitFinding, Method, Plan, PlanError, Problem,
@@ -111,6 +112,7 @@ pub(super) fn assemble<Sp: Space>(
         iterations: Vec::new(),
         iterate: Iterate::default(),
         metrics: metrics(&trajectory),
+        goals: reached(problem, &discretization),
         trajectory,
         discretization,
         diagnosis,

@@ -98,6 +98,18 @@ impl<Sp: Space> KeepOutRow<Sp> {
         Quantity::new(self.name.clone(), Interval::new(1.0, f64::INFINITY))
     }
 
+    /// How far the sphere is inside what it is kept out of, m, where the row has that value; for
+    /// a box along the direction in which it is shortest.
+    pub fn depth(&self, value: f64) -> f64 {
+        match &self.from {
+            Solid::Sphere(_, scale) => (1.0 - value.max(0.0).sqrt()) / scale.sqrt(),
+            Solid::Box(_, scales) => {
+                let steepest = scales.iter().copied().fold(0.0, f64::max);
+                (1.0 - value.max(0.0).powf(1.0 / f64::from(POWER))) / steepest
+            }
+        }
+    }
+
     /// Squared distance over the least one, or the box's rounded norm to its power.
     pub fn value<S: Scalar>(&self, tree: &Tree<Sp>, data: &Data<Sp, S>) -> S {
         let (Solid::Sphere(other, _) | Solid::Box(other, _)) = &self.from;

@@ -5,6 +5,7 @@ mod base_rate;
 mod cost_terms;
 mod diagnosis;
 mod event;
+mod excess;
 mod free_floating;
 pub mod front;
 mod goal;

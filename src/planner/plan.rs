@@ -1,6 +1,6 @@
 //! What a planner returns.
 
-use super::Method;
+use super::{Method, Reached};
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::nlp;
 use crate::ocp::Interval;
@@ -139,6 +139,8 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// Figures a person asks for first.
     pub metrics: Metrics,
+    /// The goals for the end effector, in the order of time, and how near they are met.
+    pub goals: Vec<Reached>,
     /// Why there is no plan; only where the status is infeasible.
     pub diagnosis: Option<Diagnosis>,
     /// What a user should know before using the plan, a sentence each.

@@ -1,11 +1,12 @@
 //! Plans by the adaptive or the global Radau pseudospectral method.
 
 use super::guess::{JointPath, along};
+use super::reached::gaps;
 use super::replan::bend;
 use super::trajectory::{metrics, trajectory};
 use super::{
-    Event, FreeFloating, Method, Plan, Problem, ProblemError, Status, Timing, Trajectory,
-    diagnosis, turn,
+    EndEffectorGoal, Event, FreeFloating, Method, Plan, Problem, ProblemError, Status, Timing,
+    Trajectory, diagnosis, excess, turn,
 };
 use crate::collocation::MeshError;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
@@ -185,6 +186,10 @@ impl Planner {
             outcome.max_error()
         };
         let trajectory = trajectory(system, &outcome.trajectory);
+        let exceeded = match status {
+            Status::Infeasible => Vec::new(),
+            _ => excess::warnings(problem, system, &outcome.violations),
+        };
         let warnings = [
             near_singularity(&trajectory),
             ipopt::why_not_ours(&solver),
@@ -197,13 +202,14 @@ impl Planner {
             tolerance: problem.mesh.tolerance,
             max_error,
             metrics: metrics(&trajectory),
+            goals: gaps(system, &outcome.trajectory),
             timing: timing(&outcome.statistics, began.elapsed()),
             iterations: outcome.records,
             discretization: outcome.trajectory,
             iterate: outcome.iterate,
             trajectory,
             diagnosis: finding,
-            warnings: warnings.into_iter().flatten().collect(),
+            warnings: warnings.into_iter().flatten().chain(exceeded).collect(),
             linear_solver: linear_solver(&solver, &outcome.statistics),
         })
     }
@@ -240,6 +246,10 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
     let limited = |p: &Problem| {
         [&p.limits.base_rate, &p.limits.torque].map(|b| b.iter().any(|b| !b.is_free()))
     };
+    let passed = |p: &Problem| -> Vec<Option<EndEffectorGoal>> {
+        let points = p.task.way_points.iter();
+        points.map(|point| point.end_effector.clone()).collect()
+    };
     a.robot == b.robot
         && a.attitude == b.attitude
         && turn::rows(a) == turn::rows(b)
@@ -247,6 +257,7 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
         && a.cost.rate_matrix == b.cost.rate_matrix
         && (a.cost.duration == 0.0) == (b.cost.duration == 0.0)
         && a.task.end_effector == b.task.end_effector
+        && passed(a) == passed(b)
         && a.task.initial_momentum == b.task.initial_momentum
         && a.limits.keep_out == b.limits.keep_out
         && limited(a) == limited(b)

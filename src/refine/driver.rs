@@ -1,7 +1,11 @@
 //! Solves on one mesh after another until the error is within the tolerance.
 
 use super::transfer::{Duals, resample, saved_layout};
-use super::{Record, Settings, midpoint_errors, quadrature_error, refine};
+use super::violation::worst_of_each;
+use super::{
+    Bounded, Method, Record, Settings, Violation, midpoint_errors, quadrature_error, refine,
+    violations,
+};
 use crate::collocation::Mesh;
 use crate::nlp::{self, Control, Iterate, Progress, Statistics, Status, ipopt};
 use crate::ocp::Ocp;
@@ -11,6 +15,9 @@ use std::time::Instant;
 /// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
 /// below it that the first barrier problem is the last, and costs are as exact as from a cold start.
 const REFINED_BARRIER: f64 = 0.1;
+
+/// Part of its size by which a bound may be exceeded between the nodes of a mesh that counts.
+const FAR: f64 = 0.05;
 
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
@@ -52,8 +59,12 @@ pub struct Outcome {
     pub objective: f64,
     /// One record a mesh iteration.
     pub records: Vec<Record>,
-    /// Whether the last solve succeeded with its largest error within the tolerance.
+    /// Whether the last solve succeeded with its largest error within the tolerance, and no bound is
+    /// far exceeded between the nodes.
     pub converged: bool,
+    /// The worst violation of every bound that is exceeded between the nodes by more than
+    /// [`Settings::bound_tolerance`].
+    pub violations: Vec<Violation>,
     /// Times of all solves together.
     pub statistics: Statistics,
 }
@@ -109,6 +120,10 @@ impl<O: Ocp> Refinement<'_, O> {
 
     /// Solves on the start's mesh, with a breakpoint at every way-point, then on refined ones.
     ///
+    /// Meshes follow while the error is above the tolerance, and while a state or a path row of the
+    /// states exceeds its bounds between the nodes; should a mesh for the sake of the latter fail,
+    /// the last one that converged counts.
+    ///
     /// The monitor is told of each step and can stop the loop. A failed solve ends it; the
     /// outcome then holds the last trajectory all the same.
     ///
@@ -126,6 +141,7 @@ impl<O: Ocp> Refinement<'_, O> {
         let mut statistics = Statistics::default();
         let mut trajectory = self.at_way_points(&start.trajectory);
         let mut previous: Option<(Mesh, Layout, Iterate)> = None;
+        let mut within_before: Option<Outcome> = None;
         loop {
             let began = Instant::now();
             let mesh = trajectory.mesh.clone();
@@ -182,15 +198,20 @@ impl<O: Ocp> Refinement<'_, O> {
             let max_error = errors.max();
             let usable = solution.status.is_solved();
             let within = usable && max_error <= self.settings.tolerance;
+            let outside = violations(self.ocp, &trajectory);
+            let removable = self.removable(&outside);
+            let farthest = FAR.max(self.settings.bound_tolerance);
+            let held = removable.iter().flatten().all(|v| v.relative <= farthest);
             let last = match self.settings.method {
-                super::Method::Adaptive => records.len() + 1 >= self.settings.max_iterations,
-                super::Method::Global => false,
+                Method::Adaptive => records.len() + 1 >= self.settings.max_iterations,
+                Method::Global => within,
             };
-            let next = if !usable || within || last {
+            let next = if !usable || last {
                 None
             } else {
-                refine(self.settings, &trajectory, &errors)
+                refine(self.settings, &trajectory, &errors, &removable)
             };
+            let largest = outside.iter().flatten().map(|v| v.relative);
             records.push(Record {
                 points: mesh.points(),
                 segments: mesh.segments(),
@@ -198,6 +219,7 @@ impl<O: Ocp> Refinement<'_, O> {
                 quadrature_error: quadrature_error(self.ocp, &trajectory),
                 segment_errors: errors.by_segment,
                 max_error,
+                max_violation: largest.fold(0.0, f64::max),
                 objective: solution.objective,
                 nlp_iterations,
                 nlp_status: solution.status,
@@ -205,24 +227,47 @@ impl<O: Ocp> Refinement<'_, O> {
                 decisions: next.as_ref().map_or_else(Vec::new, |(_, d)| d.clone()),
             });
             let halt = monitor(Event::Solved(&records[records.len() - 1])) == Control::Stop;
+            let outcome = Outcome {
+                trajectory,
+                iterate: solution.iterate,
+                status: solution.status,
+                objective: solution.objective,
+                records: records.clone(),
+                converged: within && held,
+                violations: worst_of_each(&outside, self.settings.bound_tolerance),
+                statistics,
+            };
             match next {
                 Some((finer, _)) if !halt => {
-                    previous = Some((mesh, program.layout().clone(), solution.iterate));
-                    trajectory = resample(&trajectory, finer);
+                    trajectory = resample(&outcome.trajectory, finer);
+                    previous = Some((mesh, program.layout().clone(), outcome.iterate.clone()));
+                    within_before = Some(outcome).filter(|o| o.converged).or(within_before);
                 }
                 _ => {
-                    return Ok(Outcome {
-                        trajectory,
-                        iterate: solution.iterate,
-                        status: solution.status,
-                        objective: solution.objective,
-                        records,
-                        converged: within,
-                        statistics,
+                    return Ok(match within_before {
+                        Some(before) if !outcome.converged => Outcome {
+                            statistics,
+                            ..before
+                        },
+                        _ => outcome,
                     });
                 }
             }
         }
+    }
+
+    /// The violations that another mesh removes: those of states and of rows of the states. A row
+    /// of the controls overshoots where these switch, however narrow the segment.
+    fn removable(&self, outside: &[Vec<Violation>]) -> Vec<Vec<Violation>> {
+        let formulation = self.ocp.formulation();
+        let removable = |violation: &&Violation| match violation.what {
+            Bounded::State(_) => true,
+            Bounded::Path(p) => self.patterns.path_is_continuous(&formulation, p),
+        };
+        outside
+            .iter()
+            .map(|segment| segment.iter().filter(removable).copied().collect())
+            .collect()
     }
 
     /// The trajectory on a mesh with a breakpoint at every way-point; as it is where its mesh has

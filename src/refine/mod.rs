@@ -9,6 +9,7 @@ mod quadrature;
 mod record;
 mod settings;
 mod transfer;
+mod violation;
 
 pub use driver::{Event, Outcome, Refinement, Start};
 pub use error::{Errors, midpoint_errors};
@@ -16,3 +17,4 @@ pub use law::refine;
 pub use quadrature::quadrature_error;
 pub use record::{Decision, Record};
 pub use settings::{Method, Settings};
+pub use violation::{Bounded, Violation, violations};

@@ -29,6 +29,8 @@ pub struct Record {
     pub max_error: f64,
     /// Largest relative error of the states by quadrature on a finer LGR set.
     pub quadrature_error: f64,
+    /// Largest part of its size by which a bound is exceeded between the nodes; 0 where none is.
+    pub max_violation: f64,
     /// Objective (25).
     pub objective: f64,
     /// Iterations of the solver.

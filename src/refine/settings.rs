@@ -32,6 +32,9 @@ pub struct Settings {
     pub points: usize,
     /// Tolerance ε_d on the largest error (28). Default 1e-5.
     pub tolerance: f64,
+    /// Part of a bound's size by which states and path rows may exceed it between the nodes before
+    /// the adaptive method refines there. Default 1e-3.
+    pub bound_tolerance: f64,
     /// Largest number of mesh iterations of the adaptive method, the first included. Default 6.
     pub max_iterations: usize,
     /// Largest number of LGR points in one segment of the adaptive method. Default 20.
@@ -55,6 +58,7 @@ impl Default for Settings {
             segments: 10,
             points: 5,
             tolerance: 1e-5,
+            bound_tolerance: 1e-3,
             max_iterations: 6,
             max_points: 20,
             lambda1: 2.0,
@@ -97,6 +101,7 @@ impl Settings {
         }
         let above_zero = [
             ("tolerance", self.tolerance),
+            ("bound_tolerance", self.bound_tolerance),
             ("lambda1", self.lambda1),
             ("lambda2", self.lambda2),
         ];

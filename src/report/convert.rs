@@ -33,6 +33,7 @@ pub fn solution(
         },
         trajectory: trajectory(&plan.trajectory),
         metrics: metrics(&plan.metrics),
+        goals: plan.goals.iter().map(goal).collect(),
         verification: checked.map(verification),
         diagnosis: plan.diagnosis.as_ref().map(diagnosis),
         warnings: plan.warnings.clone(),
@@ -48,6 +49,7 @@ fn iteration(record: &Record) -> Iteration {
         segments: record.segments,
         max_error: record.max_error,
         quadrature_error: record.quadrature_error,
+        max_violation: record.max_violation,
         objective: record.objective,
         nlp_iterations: record.nlp_iterations,
         nlp_status: record.nlp_status.describe().into(),
@@ -88,6 +90,15 @@ fn metrics(found: &planner::Metrics) -> Metrics {
         final_base_displacement: found.final_base_displacement,
         peak_joint_velocity: found.peak_joint_velocity,
         peak_joint_torque: found.peak_joint_torque,
+    }
+}
+
+pub(super) fn goal(found: &planner::Reached) -> Goal {
+    Goal {
+        key: found.key.clone(),
+        t: found.t,
+        distance: found.distance,
+        angle: found.angle,
     }
 }
 

@@ -31,7 +31,7 @@ pub use provenance::Provenance;
 pub use read::{Saved, SolutionError, read_solution};
 pub use simulation::Simulation;
 pub use solution::{
-    Diagnosis, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing, Trajectory,
+    Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing, Trajectory,
     Verification,
 };
 pub use summary::{summary, verdict};

@@ -35,6 +35,9 @@ pub struct Solution {
     pub trajectory: Trajectory,
     /// Figures a person asks for first.
     pub metrics: Metrics,
+    /// Goals for the end effector, in the order of time, and how near they are met.
+    #[serde(default)]
+    pub goals: Vec<Goal>,
     /// Independent re-integration; null where there was none.
     pub verification: Option<Verification>,
     /// Why there is no plan; null unless infeasible.
@@ -64,6 +67,9 @@ pub struct Iteration {
     /// Largest relative error of the states by quadrature on a finer LGR set.
     #[serde(with = "number")]
     pub quadrature_error: f64,
+    /// Largest part of its size by which a bound is exceeded between the nodes.
+    #[serde(with = "number", default)]
+    pub max_violation: f64,
     /// Objective (25).
     #[serde(with = "number")]
     pub objective: f64,
@@ -131,6 +137,19 @@ pub struct Metrics {
     /// Largest magnitude of any joint torque, N·m or N.
     #[serde(with = "number")]
     pub peak_joint_torque: f64,
+}
+
+/// A goal for the end effector.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Goal {
+    /// Key in the problem file.
+    pub key: String,
+    /// When, s.
+    pub t: f64,
+    /// Distance from the position asked for, m; null where none was.
+    pub distance: Option<f64>,
+    /// Angle from the orientation asked for, rad; null where none was.
+    pub angle: Option<f64>,
 }
 
 /// Largest differences between the plan and its independent re-integration.

@@ -25,6 +25,7 @@ pub fn summary(
         lines.add("duration", format!("{:.6} s", plan.discretization.duration));
     }
     motion(&mut lines, &problem.robot, plan);
+    goals(&mut lines, problem, plan);
     if let Some(found) = checked {
         verification(&mut lines, &problem.robot, found);
     }
@@ -129,6 +130,9 @@ fn status(plan: &Plan) -> String {
         (Status::NotConverged, _) => {
             let why = match plan.iterations.last() {
                 Some(last) if !last.nlp_status.is_solved() => last.nlp_status.describe(),
+                Some(last) if last.max_error <= plan.tolerance => {
+                    "a limit is far exceeded between the points of the mesh"
+                }
                 _ => "the tolerance is not reached",
             };
             format!("NOT converged, {why}; this is the best trajectory found")
@@ -180,6 +184,30 @@ fn motion(lines: &mut Lines, robot: &Model, plan: &Plan) {
         lines.add(
             "sliding joints",
             format!("at most {}/s and {effort:.4} N", centimetres(rate)),
+        );
+    }
+}
+
+/// How near the goals with a tolerance were met.
+fn goals(lines: &mut Lines, problem: &Problem, plan: &Plan) {
+    let task = &problem.task;
+    let points = task
+        .way_points
+        .iter()
+        .filter_map(|p| p.end_effector.as_ref());
+    for (goal, found) in points.chain(&task.end_effector).zip(&plan.goals) {
+        if goal.position_tolerance == 0.0 && goal.orientation_tolerance == 0.0 {
+            continue;
+        }
+        let gaps = [found.distance.map(centimetres), found.angle.map(degrees)];
+        let gaps: Vec<String> = gaps.into_iter().flatten().collect();
+        lines.add(
+            "end effector",
+            format!(
+                "{} off its goal at {:.3} s, as allowed",
+                gaps.join(" and "),
+                found.t
+            ),
         );
     }
 }

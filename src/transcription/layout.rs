@@ -24,12 +24,12 @@ pub struct Layout {
     /// Whether the duration is a variable.
     pub free_duration: bool,
     /// Way-points, rising in time.
-    way_points: Arc<[Passing]>,
+    pub(crate) way_points: Arc<[Passing]>,
 }
 
 /// Where a way-point stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Passing {
+pub(crate) struct Passing {
     node: usize,
     rows: usize,
     /// Rows of the way-points before it.

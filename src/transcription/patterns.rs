@@ -70,6 +70,18 @@ impl Patterns {
     }
 }
 
+impl Patterns {
+    /// Whether path row `p` is a function of the states and the time alone. What depends on the
+    /// controls as well jumps where they switch.
+    pub fn path_is_continuous(&self, formulation: &Formulation, p: usize) -> bool {
+        let (states, controls) = formulation.widths();
+        let inputs = &self.node.jacobian[states + p];
+        !inputs
+            .iter()
+            .any(|input| (states..states + controls).contains(input))
+    }
+}
+
 /// Draws values within bounds.
 struct Draw(fastrand::Rng);
 

@@ -80,29 +80,63 @@ impl Description {
     /// Where the body `name` is, or the body moved by the joint of that name: the joint that
     /// carries it (`None` for the base) and the pose in that joint's body.
     pub(super) fn find(&self, name: &str) -> Option<(Option<usize>, Placement)> {
+        let moved = || {
+            let joint = self.joints.iter().position(|e| e.joint.name == name)?;
+            Some((Some(joint), Placement::identity()))
+        };
+        self.body(name).or_else(moved)
+    }
+
+    /// Where the body `name` is, as in [`Description::find`].
+    pub(super) fn body(&self, name: &str) -> Option<(Option<usize>, Placement)> {
         if self.base.name == name {
             return Some((None, Placement::identity()));
         }
-        let position =
-            |f: fn(&Joint) -> &str| self.joints.iter().position(|entry| f(&entry.joint) == name);
-        if let Some(joint) = position(|joint| &joint.body.name) {
+        let of_that_name = |entry: &Entry| entry.joint.body.name == name;
+        if let Some(joint) = self.joints.iter().position(of_that_name) {
             return Some((Some(joint), Placement::identity()));
         }
-        if let Some(frame) = self.frames.iter().find(|frame| frame.name == name) {
-            return Some((frame.carrier, frame.placement.clone()));
-        }
-        position(|joint| &joint.name).map(|joint| (Some(joint), Placement::identity()))
+        let frame = self.frames.iter().find(|frame| frame.name == name)?;
+        Some((frame.carrier, frame.placement.clone()))
+    }
+
+    /// Names of the base, of the bodies that move and of those that have become part of others.
+    pub(super) fn body_names(&self) -> impl Iterator<Item = &str> {
+        let bodies = self.joints.iter().map(|entry| &entry.joint.body.name);
+        let frames = self.frames.iter().map(|frame| &frame.name);
+        std::iter::once(&self.base.name)
+            .chain(bodies)
+            .chain(frames)
+            .map(String::as_str)
+    }
+
+    /// The body in whose frame the end effector stands; the one that carries it, and where, if it
+    /// is at no body's frame.
+    pub(super) fn end_effector_name(&self) -> Option<String> {
+        let (carrier, placement) = self.end_effector.as_ref()?;
+        let apart = |other: &Placement| {
+            (other.translation - placement.translation).norm()
+                + (other.rotation - placement.rotation).norm()
+        };
+        let names = self.body_names().filter_map(|name| {
+            let (joint, at) = self.body(name)?;
+            (joint == *carrier && apart(&at) < 1e-9).then(|| name.to_owned())
+        });
+        // The last is the one nearest to the tip.
+        names.last().or_else(|| {
+            let body = match carrier {
+                Some(joint) => &self.joints[*joint].joint.body.name,
+                None => &self.base.name,
+            };
+            let shown = |v: f64| (v * 1e6).round() / 1e6 + 0.0;
+            let [x, y, z] = <[f64; 3]>::from(placement.translation).map(shown);
+            Some(format!("on {body}, at ({x}, {y}, {z}) m in its frame"))
+        })
     }
 
     /// The names [`Description::find`] knows, for a message.
     pub(super) fn expected_names(&self) -> String {
-        let bodies = self.joints.iter().map(|entry| &entry.joint.body.name);
-        let frames = self.frames.iter().map(|frame| &frame.name);
-        let names: Vec<&str> = std::iter::once(&self.base.name)
-            .chain(bodies)
-            .chain(frames)
-            .map(String::as_str)
-            .collect();
+        let names: Vec<&str> = self.body_names().collect();
         format!("a body or joint of the robot: {}", names.join(", "))
     }
 

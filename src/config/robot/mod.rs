@@ -9,7 +9,7 @@ use super::document::quoted;
 use super::files::Files;
 use super::item::{Item, hint};
 use super::{ConfigError, Place};
-use crate::dynamics::{Inertia, Model, ModelError};
+use crate::dynamics::{Inertia, Model, ModelError, Placement};
 use crate::planner::Problem;
 use description::{Description, Entry};
 use std::path::Path;
@@ -63,6 +63,25 @@ impl Robot {
                 source,
             },
         })
+    }
+
+    /// The joint whose body is or carries the body `name` (`None` for the base), and the pose of
+    /// that body's frame there. Bodies that were welded to others are found as well.
+    pub(super) fn body(&self, name: &str) -> Option<(Option<usize>, Placement)> {
+        match self.description.body(name) {
+            None if name == "base" => Some((None, Placement::identity())),
+            found => found,
+        }
+    }
+
+    /// Names of all bodies, those welded to others included.
+    pub(super) fn body_names(&self) -> Vec<&str> {
+        self.description.body_names().collect()
+    }
+
+    /// Name of the body at whose frame the end effector is, with an offset where there is one.
+    pub(super) fn end_effector(&self) -> Option<String> {
+        self.description.end_effector_name()
     }
 
     /// What a user should know of how the robot was read.
