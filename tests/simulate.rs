@@ -170,7 +170,11 @@ fn planar_accelerations_are_those_in_space() {
             angular: normal * v[2],
             ..BaseMotion::placed(
                 basis * Vector3::new(q[0], q[1], 0.0),
-                ffsm_ipopt::verify::bodies::orientation(&model, &q[2..3]),
+                ffsm_ipopt::verify::bodies::orientation(
+                    &model,
+                    ffsm_ipopt::dynamics::attitude::SpatialAttitude::RollPitchYaw,
+                    &q[2..3],
+                ),
             )
         };
         let mut bodies = Bodies::new(&model);

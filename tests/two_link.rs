@@ -163,7 +163,7 @@ fn a_replan_takes_under_half_the_iterations_of_a_cold_one() {
         for degrees in [[0.0, 5.0], [5.0, 5.0], [-5.0, -5.0]] {
             let mut moved = problem.clone();
             for (goal, by) in moved.task.final_joints.iter_mut().zip(degrees) {
-                *goal += by.to_radians();
+                *goal += f64::to_radians(by);
             }
             let cold = planner.plan(&moved).unwrap();
             let warm = planner

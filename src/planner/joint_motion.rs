@@ -111,6 +111,7 @@ pub(super) fn assemble<Sp: Space>(
         max_error,
         iterations: Vec::new(),
         iterate: Iterate::default(),
+        linear_solver: "none".into(),
         metrics: metrics(&trajectory),
         goals: reached(problem, &discretization),
         trajectory,
