@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 figures reproduction clean
+.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -53,6 +53,9 @@ figures: ## draw the figures of the paper from own runs
 
 reproduction: ## compute all of the paper again and write docs/reproduction.md
 	scripts/reproduction.sh
+
+platform-fit: ## which disturbances of the ground platform explain the paper's measurements
+	cargo run --release --locked --bin ffsm-ipopt -- simulate --fit config/platforms/published.toml
 
 clean: ## remove what was built and computed
 	cargo clean

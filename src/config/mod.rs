@@ -11,6 +11,7 @@ mod base;
 mod document;
 mod error;
 mod files;
+mod fit;
 mod goal;
 mod inertia;
 mod item;
@@ -24,6 +25,7 @@ mod values;
 mod way_point;
 
 pub use error::{ConfigError, Place};
+pub use fit::{Experiment, FitFile, Hypothesis, PathMethod, PlanSource};
 pub use overrides::Overrides;
 pub use platform::PlatformFile;
 pub use problem::ProblemFile;

@@ -365,7 +365,7 @@ fn not_negative(section: &Section<'_>, values: &mut [(&str, &mut f64)]) -> Resul
     Ok(())
 }
 
-fn pair(item: &Item<'_>, expected: &str) -> Result<[f64; 2], ConfigError> {
+pub(super) fn pair(item: &Item<'_>, expected: &str) -> Result<[f64; 2], ConfigError> {
     let elements = item
         .as_elements()
         .ok_or_else(|| item.unexpected(expected))?;

@@ -221,7 +221,7 @@ fn read(
 }
 
 /// The name, which names the output folder as well; that of the file unless given.
-fn name(root: &Section<'_>, path: &Path) -> Result<String, ConfigError> {
+pub(super) fn name(root: &Section<'_>, path: &Path) -> Result<String, ConfigError> {
     let Some(item) = root.get("name") else {
         let stem = path
             .file_stem()

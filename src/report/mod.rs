@@ -7,6 +7,7 @@
 mod build;
 mod convert;
 mod csv;
+mod fit;
 mod format;
 mod json;
 mod lines;
@@ -23,6 +24,7 @@ mod warm_start;
 pub use build::Build;
 pub use convert::solution;
 pub use csv::trajectory_csv;
+pub use fit::FitReport;
 pub use format::{centimetres, degrees, rotation, seconds};
 pub use json::to_json;
 pub use lines::Lines;

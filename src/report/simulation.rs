@@ -3,6 +3,7 @@
 
 use super::format::{centimetres, degrees};
 use super::{Build, Lines, number, to_json};
+use crate::plot::{Axis, Chart, Colour, Figure, Series, Stroke, Width};
 use crate::simulate::{Figures, Run, Spread};
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
@@ -147,6 +148,67 @@ impl Simulation<'_> {
             self.seed,
             lines.finish()
         )
+    }
+
+    /// Base attitude and position over time: the plan, and what the runs measured.
+    pub fn figure(&self) -> Figure {
+        let t = &self.runs[0].t;
+        let start = self.planned[0];
+        let zero: Vec<[f64; 3]> = self.runs.iter().map(|run| run.measured[0]).collect();
+        let chart = |title: &str, unit: &str, factor: f64, components: &[(usize, &str)]| {
+            let mut chart = Chart::new(Axis::linear("Time (s)"), Axis::linear(unit)).title(title);
+            for (number, &(component, name)) in components.iter().enumerate() {
+                let colour = Colour::of_series(number);
+                let planned: Vec<f64> = self
+                    .planned
+                    .iter()
+                    .map(|row| factor * (row[component] - start[component]))
+                    .collect();
+                let spread: Vec<Spread> = (0..t.len())
+                    .map(|k| {
+                        Spread::of(self.runs.iter().zip(&zero).map(|(run, zero)| {
+                            factor * (run.measured[k][component] - zero[component])
+                        }))
+                    })
+                    .collect();
+                let of = |f: fn(&Spread) -> f64| spread.iter().map(f).collect::<Vec<f64>>();
+                if self.runs.len() > 1 {
+                    let (lower, upper) = (of(|s| s.min), of(|s| s.max));
+                    let band = Series::band("", t, &lower, &upper);
+                    chart = chart.series(band.colour(colour));
+                }
+                let measured = Series::line(&format!("{name}measured"), t, &of(|s| s.mean));
+                let dashed = Series::line(&format!("{name}planned"), t, &planned);
+                chart = chart
+                    .series(measured.colour(colour))
+                    .series(dashed.colour(colour).stroke(Stroke::Dashed));
+            }
+            chart
+        };
+        let (title, runs) = match self.runs.len() {
+            1 => ("", String::new()),
+            count => (
+                " (mean and range)",
+                format!(", mean and range of {count} runs"),
+            ),
+        };
+        let description = format!(
+            "Base attitude and displacement of {} on {}{runs}",
+            self.name, self.platform
+        );
+        Figure::new(&description, Width::Column)
+            .panel(chart(
+                &format!("(a) Base attitude{title}"),
+                "Angle (deg)",
+                1f64.to_degrees(),
+                &[(2, "")],
+            ))
+            .panel(chart(
+                &format!("(b) Base displacement{title}"),
+                "Displacement (cm)",
+                100.0,
+                &[(0, "x "), (1, "y ")],
+            ))
     }
 
     /// `simulation.json`.

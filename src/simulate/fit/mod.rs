@@ -3,11 +3,14 @@
 //! | file | does |
 //! | --- | --- |
 //! | `parameter` | what of a platform can be fitted |
+//! | `bang_bang` | the joint path of MATPM |
 //! | `least_squares` | least squares within bounds |
 
+mod bang_bang;
 mod least_squares;
 mod parameter;
 
+pub use bang_bang::bang_bang;
 pub use least_squares::{Minimum, minimise};
 pub use parameter::Parameter;
 
@@ -151,8 +154,8 @@ impl Experiments {
         self.compare_each(&vec![platform.clone(); self.players.len()])
     }
 
-    /// The values of `unknowns` between `starts` searches that explain the measurements best,
-    /// all else as in `platform`.
+    /// The values of `unknowns` that explain the measurements best, by searches from `starts`
+    /// points, all else as in `platform`. Where `stop` says so the best so far is returned.
     ///
     /// # Errors
     /// [`SimulateError`] where `platform` itself cannot be simulated.
@@ -161,6 +164,7 @@ impl Experiments {
         platform: &Platform,
         unknowns: &[Unknown],
         starts: usize,
+        stop: &dyn Fn() -> bool,
     ) -> Result<Fit, SimulateError> {
         let exact = platform.without_noise();
         let platform = coarse(&exact);
@@ -182,6 +186,9 @@ impl Experiments {
         let mut rng = Rng::with_seed(platform.seed);
         let mut ends: Vec<Minimum> = Vec::new();
         for start in 0..starts.max(1) {
+            if start > 0 && stop() {
+                break;
+            }
             let z = if start == 0 {
                 own.clone()
             } else {
