@@ -56,6 +56,7 @@ reproduction: ## compute all of the paper again and write docs/reproduction.md
 
 platform-fit: ## which disturbances of the ground platform explain the paper's measurements
 	cargo run --release --locked --bin ffsm-ipopt -- simulate --fit config/platforms/published.toml
+	cargo run --release --locked --bin ffsm-ipopt -- simulate --fit config/platforms/published-heavy-base.toml
 
 clean: ## remove what was built and computed
 	cargo clean
