@@ -3,13 +3,11 @@
 use super::failure::Failure;
 use super::progress::Progress;
 use super::{Outcome, interrupt, terminal};
-use crate::config::{
-    ConfigError, FitFile, Overrides, PathMethod, PlanSource, PlatformFile, ProblemFile,
-};
+use crate::config::{FitFile, Overrides, PlanSource, PlatformFile, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
-use crate::planner::{Planner, Problem};
+use crate::planner::{Method, Planner, Problem};
 use crate::report::{FitReport, OutputFolder, Saved};
-use crate::simulate::fit::{Experiments, Fit, bang_bang};
+use crate::simulate::fit::{Experiments, Fit};
 use crate::simulate::{Platform, Player, SimulateError};
 use crate::transcription::Discretization;
 use std::path::{Path, PathBuf};
@@ -126,34 +124,23 @@ fn played(name: &str, source: &PlanSource) -> Result<Played, Failure> {
             })
         }
         PlanSource::Problem(path, method) => {
-            let mut file = ProblemFile::load(path, &Overrides::default())?;
-            if *method == PathMethod::Matpm {
-                let Some(plan) = bang_bang(&file.problem) else {
-                    return Err(Failure::Config(ConfigError::Format {
-                        place: file.place("task"),
-                        message: "matpm needs joints at rest, a fixed duration, a goal in joint \
-                                  positions, and rate limits above its peak 2Δθ/t_f"
-                            .into(),
-                    }));
-                };
-                return Ok(Played {
-                    source: format!("{} by matpm", path.display()),
-                    problem: file.problem,
-                    plan,
-                });
-            }
-            if let PathMethod::Collocation(method) = method {
-                file.problem.mesh.method = *method;
-            }
-            let method = file.problem.mesh.method.name();
-            let title = format!("{name}, {} by {method}", file.problem.name);
+            let file = ProblemFile::load(path, &Overrides::default())?;
+            let of_file = Method::Collocation(file.problem.mesh.method);
+            let method = method.unwrap_or(of_file);
+            let title = format!("{name}, {} by {}", file.problem.name, method.name());
             let mut progress = Progress::start(&title, false);
-            let plan =
-                Planner::new().plan_with(&file.problem, None, &mut |event| progress.show(event));
+            let plan = Planner::new().plan_by(method, &file.problem, None, &mut |event| {
+                progress.show(event)
+            });
             progress.finish();
             let plan = plan.map_err(|error| Failure::planning(&file, None, error))?;
             Ok(Played {
-                source: format!("{} by {method}, {}", path.display(), plan.status.name()),
+                source: format!(
+                    "{} by {}, {}",
+                    path.display(),
+                    method.name(),
+                    plan.status.name()
+                ),
                 problem: file.problem,
                 plan: plan.discretization,
             })

@@ -4,7 +4,7 @@ use super::document::{Node, quoted};
 use super::files::Files;
 use super::item::{Item, Section, hint};
 use super::{ConfigError, Place};
-use crate::refine::Method;
+use crate::planner::Method;
 use crate::simulate::fit::{Measured, Parameter, Scale, Unknown};
 use std::path::{Path, PathBuf};
 
@@ -48,27 +48,8 @@ pub struct Experiment {
 pub enum PlanSource {
     /// A saved one.
     Solution(PathBuf),
-    /// One made from a problem file.
-    Problem(PathBuf, PathMethod),
-}
-
-/// How the joint path of an experiment is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PathMethod {
-    /// By the problem file's own method.
-    OfFile,
-    /// By collocation of the problem.
-    Collocation(Method),
-    /// Least largest acceleration.
-    Matpm,
-}
-
-impl PathMethod {
-    const NAMED: [(&'static str, Self); 3] = [
-        ("a-rpm", Self::Collocation(Method::Adaptive)),
-        ("rpm", Self::Collocation(Method::Global)),
-        ("matpm", Self::Matpm),
-    ];
+    /// One made from a problem file, by the file's own method unless another is named.
+    Problem(PathBuf, Option<Method>),
 }
 
 /// Parameters that are fitted together.
@@ -213,13 +194,13 @@ fn plan(section: &Section<'_>, folder: &Path) -> Result<PlanSource, ConfigError>
         path(section.require("problem", "a problem file, or solution with a saved one")?)?;
     let method = match section.get("method") {
         Some(item) => {
-            let named = PathMethod::NAMED;
-            let expected = format!("one of {}", named.map(|(name, _)| name).join(", "));
+            let names: Vec<&str> = Method::ALL.iter().map(|method| method.name()).collect();
+            let expected = format!("one of {}", names.join(", "));
             let name = item.text(&expected)?;
-            let found = named.into_iter().find(|(known, _)| *known == name);
-            found.ok_or_else(|| item.error(quoted(name), expected))?.1
+            let found = Method::ALL.into_iter().find(|method| method.name() == name);
+            Some(found.ok_or_else(|| item.error(quoted(name), expected))?)
         }
-        None => PathMethod::OfFile,
+        None => None,
     };
     Ok(PlanSource::Problem(problem, method))
 }
@@ -330,7 +311,7 @@ mod tests {
         let [first, second] = [&fit.experiments[0], &fit.experiments[1]];
         assert_eq!(first.measured.final_displacement, Some([0.032, 0.042]));
         let problem = PathBuf::from("a/../table1-relaxed.toml");
-        let matpm = PlanSource::Problem(problem, PathMethod::Matpm);
+        let matpm = PlanSource::Problem(problem, Some(Method::Matpm));
         assert_eq!(second.plan, matpm);
         let degrees = second.measured.max_attitude.unwrap().to_degrees();
         assert!((degrees - 25.8).abs() < 1e-9);

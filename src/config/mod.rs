@@ -25,7 +25,7 @@ mod values;
 mod way_point;
 
 pub use error::{ConfigError, Place};
-pub use fit::{Experiment, FitFile, Hypothesis, PathMethod, PlanSource};
+pub use fit::{Experiment, FitFile, Hypothesis, PlanSource};
 pub use overrides::Overrides;
 pub use platform::PlatformFile;
 pub use problem::ProblemFile;

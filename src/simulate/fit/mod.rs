@@ -3,14 +3,11 @@
 //! | file | does |
 //! | --- | --- |
 //! | `parameter` | what of a platform can be fitted |
-//! | `bang_bang` | the joint path of MATPM |
 //! | `least_squares` | least squares within bounds |
 
-mod bang_bang;
 mod least_squares;
 mod parameter;
 
-pub use bang_bang::bang_bang;
 pub use least_squares::{Minimum, minimise};
 pub use parameter::Parameter;
 
