@@ -261,6 +261,7 @@ fn air(item: &Item<'_>, robot: &Model) -> Result<Air, ConfigError> {
                 .chain(robot.joints().iter().map(|joint| &joint.body))
                 .map(|body| body.name.clone())
                 .collect(),
+            single: None,
         };
         air.drag_area = bodies.weights(item)?;
     }
