@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts bench-kkt lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -28,6 +28,9 @@ bench-quick: ## the same with fewer runs and without the slowest peer
 
 bench-parts: ## time dynamics, derivatives and solves apart, with scaling exponents
 	cargo bench --locked
+
+bench-kkt: ## our linear solver beside MUMPS on recorded systems (needs libmumps-seq-dev)
+	scripts/bench-kkt.sh
 
 lint: ## check the formatting and run clippy, warnings being errors
 	cargo fmt --all --check

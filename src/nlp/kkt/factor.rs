@@ -1,9 +1,12 @@
 //! Numerical factorisation: fronts assembled and eliminated in postorder.
 
+#[cfg(target_arch = "x86_64")]
+use super::lanes::Avx2;
+use super::lanes::{Plain, Vector};
 use super::noise::{self, Noise};
 use super::panel::{Counts, Panel};
 use super::symbolic::{Front, Symbolic, padded};
-use super::update::subtract;
+use super::update::{largest_finite, subtract};
 
 /// The matrix has a value that is infinite or not a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -88,16 +91,13 @@ impl Factors {
         threshold: f64,
     ) -> Result<Inertia, NotFinite> {
         assert_eq!(values.len(), symbolic.pattern.nonzeros());
-        let largest = largest(values).ok_or(NotFinite)?;
-        self.suspected = noise::suspected(largest);
-        self.largest.clear();
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
         {
             // SAFETY: the processor has both.
-            return Ok(unsafe { self.factor_avx2(symbolic, values, threshold) });
+            return unsafe { self.factor_avx2(symbolic, values, threshold) };
         }
-        Ok(self.factor_with::<false>(symbolic, values, threshold))
+        self.factor_with::<Plain>(symbolic, values, threshold)
     }
 
     /// # Safety
@@ -109,17 +109,20 @@ impl Factors {
         symbolic: &Symbolic,
         values: &[f64],
         threshold: f64,
-    ) -> Inertia {
-        self.factor_with::<true>(symbolic, values, threshold)
+    ) -> Result<Inertia, NotFinite> {
+        self.factor_with::<Avx2>(symbolic, values, threshold)
     }
 
     #[inline(always)]
-    fn factor_with<const FMA: bool>(
+    fn factor_with<V: Vector>(
         &mut self,
         symbolic: &Symbolic,
         values: &[f64],
         threshold: f64,
-    ) -> Inertia {
+    ) -> Result<Inertia, NotFinite> {
+        let largest = largest_finite::<V>(values).ok_or(NotFinite)?;
+        self.suspected = noise::suspected(largest);
+        self.largest.clear();
         let mut inertia = Inertia::default();
         self.panels.clear();
         self.unknowns.clear();
@@ -130,13 +133,13 @@ impl Factors {
             for child in front.children.clone() {
                 self.extend(symbolic, index, symbolic.children[child] as usize);
             }
-            let counts = self.eliminate::<FMA>(symbolic, index, values, threshold);
+            let counts = self.eliminate::<V>(symbolic, index, values, threshold);
             inertia.negative += counts.negative;
             inertia.zero += counts.zero;
             inertia.pairs += counts.pairs;
             inertia.delayed += self.places[index].columns - counts.eliminated;
         }
-        inertia
+        Ok(inertia)
     }
 
     /// Makes room for a front, delayed pivots of its children included.
@@ -155,8 +158,8 @@ impl Factors {
         let ld = padded(columns) + padded(front.border);
         let panel = self.panels.len();
         self.panels.resize(panel + ld * columns, 0.0);
-        if self.w.len() < ld * columns {
-            self.w.resize(ld * columns, 0.0);
+        if self.w.len() < ld * columns + 4 {
+            self.w.resize(ld * columns + 4, 0.0);
         }
         if self.vector.len() < ld {
             self.vector.resize(ld, 0.0);
@@ -178,8 +181,14 @@ impl Factors {
         let entries = &symbolic.entries[front.entries.clone()];
         let panel = &mut self.panels[place.panel..];
         if place.columns == front.pivots {
+            let panel = &mut panel[..(padded(front.pivots) + padded(front.border)) * front.pivots];
             for &(source, target) in entries {
-                panel[target as usize] += values[source as usize];
+                // SAFETY: the analysis places entries inside the panel of their front, and there
+                // are as many values as entries of the pattern.
+                unsafe {
+                    *panel.get_unchecked_mut(target as usize) +=
+                        values.get_unchecked(source as usize);
+                }
             }
             return;
         }
@@ -218,19 +227,21 @@ impl Factors {
         let from = &theirs[child.contribution..child.contribution + from_ld * child.border];
         let panel = &mut self.panels[place.panel..place.panel + ld * place.columns];
         let square = &mut mine[front.contribution..front.contribution + border * border];
+        // Rows rise, so that the last one bounds them all.
+        let last = self.map.last().map_or(0, |&row| row as usize);
+        assert!(last < ld && (inside == child.border || last - pivots < border));
         for (j, column) in from.chunks_exact(from_ld.max(1)).enumerate() {
             let target = self.map[j] as usize;
-            if j < inside {
-                let into = &mut panel[target * ld..(target + 1) * ld];
-                for (&row, value) in self.map[j..].iter().zip(&column[j..]) {
-                    into[row as usize] += value;
-                }
+            let (into, skipped) = if j < inside {
+                (&mut panel[target * ld..(target + 1) * ld], 0)
             } else {
                 let start = (target - pivots) * border;
-                let into = &mut square[start..start + border];
-                for (&row, value) in self.map[j..].iter().zip(&column[j..]) {
-                    into[row as usize - pivots] += value;
-                }
+                (&mut square[start..start + border], pivots)
+            };
+            for (&row, value) in self.map[j..].iter().zip(&column[j..]) {
+                // SAFETY: a row is less than `ld`; from `inside` on it is at least `pivots` and
+                // less than that by `border`.
+                unsafe { *into.get_unchecked_mut(row as usize - skipped) += value };
             }
         }
         let delayed = self.places[child_index];
@@ -287,7 +298,7 @@ impl Factors {
 
     /// Eliminates a front's pivots and forms its contribution.
     #[inline(always)]
-    fn eliminate<const FMA: bool>(
+    fn eliminate<V: Vector>(
         &mut self,
         symbolic: &Symbolic,
         index: usize,
@@ -320,29 +331,19 @@ impl Factors {
                 largest: &mut self.largest,
             },
         };
-        let counts = panel.factor::<FMA>(front.is_root);
+        let counts = panel.factor::<V>(front.is_root);
         let done = counts.eliminated;
         self.places[index].eliminated = done;
         if border > 0 {
             let square = &mut self.arenas[front.arena]
                 [front.contribution..front.contribution + border * border];
             let a = &self.panels[place.panel..place.panel + done * ld];
-            let w = &self.w[..done * ld];
+            let w = &self.w[..done * ld + 4];
             for (tile, columns) in square.chunks_exact_mut(4 * border).enumerate() {
                 let j = 4 * tile;
-                subtract::<FMA>(a, w, ld, pivots + j, pivots + j, columns, border, j);
+                subtract::<V>(a, w, ld, pivots + j, pivots + j, columns, border, j);
             }
         }
         counts
     }
-}
-
-/// Largest magnitude; `None` where a value is not finite.
-fn largest(values: &[f64]) -> Option<f64> {
-    let (mut most, mut check) = (0.0_f64, 0.0);
-    for value in values {
-        most = most.max(value.abs());
-        check += value * 0.0;
-    }
-    (check == 0.0).then_some(most)
 }

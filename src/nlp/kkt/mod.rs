@@ -8,6 +8,7 @@
 mod amalgamation;
 mod factor;
 mod graph;
+mod lanes;
 mod noise;
 mod ordering;
 mod pairs;

@@ -3,7 +3,7 @@
 use super::Pattern;
 
 /// A column left with no more than this part of its original largest entry is rounding error.
-const LEVEL: f64 = 4.0 * f64::EPSILON;
+const LEVEL: f64 = 64.0 * f64::EPSILON;
 
 /// What counts as zero in any matrix.
 const SMALL: f64 = 1e-20;

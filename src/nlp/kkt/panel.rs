@@ -8,11 +8,12 @@
 //! Tests for pivots as in Duff and Reid's multifrontal method (doi:10.1145/356044.356047) and
 //! Hogg and Scott (doi:10.1145/2513109.2513112).
 
+use super::lanes::{LANES, Vector};
 use super::noise::Noise;
-use super::update::{fused, subtract};
+use super::update::{axpy, axpy2, largest, subtract};
 
 /// Pivots are first looked for with this much of their columns' largest entry.
-const PREFERRED: f64 = 0.01;
+const PREFERRED: f64 = 1e-4;
 
 /// What counts as zero.
 const SMALL: f64 = 1e-20;
@@ -37,7 +38,7 @@ pub(super) struct Counts {
 pub(super) struct Panel<'a> {
     /// `ld` rows for each of `columns` columns.
     pub a: &'a mut [f64],
-    /// D Lᵀ of the columns eliminated, transposed: as large as `a`.
+    /// D Lᵀ of the columns eliminated, transposed: as large as `a`, and four more.
     pub w: &'a mut [f64],
     pub ld: usize,
     pub columns: usize,
@@ -60,7 +61,7 @@ enum Pivot {
 impl Panel<'_> {
     /// Eliminates what can be; in `last` there is no parent to delay to, and all are.
     #[inline(always)]
-    pub(super) fn factor<const FMA: bool>(&mut self, last: bool) -> Counts {
+    pub(super) fn factor<V: Vector>(&mut self, last: bool) -> Counts {
         let mut counts = Counts::default();
         let mut untried = self.columns;
         let mut progress = false;
@@ -68,11 +69,11 @@ impl Panel<'_> {
         loop {
             let from = counts.eliminated;
             let end = untried.min(from + block);
-            self.eliminate::<FMA>(&mut counts, end, self.threshold);
+            self.eliminate::<V>(&mut counts, end, self.threshold);
             let done = counts.eliminated;
             progress |= done > from;
             if done > from && end < self.columns {
-                self.update_rest::<FMA>(from, done, end);
+                self.update_rest::<V>(from, done, end);
             }
             // What failed goes behind what has not been tried.
             for failed in (done..end).rev() {
@@ -92,7 +93,7 @@ impl Panel<'_> {
                 (block, untried) = (self.columns, self.columns);
             } else {
                 if last {
-                    self.force::<FMA>(&mut counts);
+                    self.force::<V>(&mut counts);
                 }
                 break;
             }
@@ -102,36 +103,36 @@ impl Panel<'_> {
 
     /// Eliminates what can be of the columns up to `end`.
     #[inline(always)]
-    fn eliminate<const FMA: bool>(&mut self, counts: &mut Counts, end: usize, threshold: f64) {
+    fn eliminate<V: Vector>(&mut self, counts: &mut Counts, end: usize, threshold: f64) {
         let preferred = PREFERRED.max(threshold);
         while counts.eliminated < end {
             let k = counts.eliminated;
-            let found = match self.find(k, end, preferred) {
-                None if threshold < preferred => self.find(k, end, threshold),
+            let found = match self.find::<V>(k, end, preferred) {
+                None if threshold < preferred => self.find::<V>(k, end, threshold),
                 found => found,
             };
             match found {
-                Some(pivot) => self.pivot::<FMA>(pivot, counts, end),
+                Some(pivot) => self.pivot::<V>(pivot, counts, end),
                 None => break,
             }
         }
     }
 
     /// Eliminates all that is left, whatever its size.
-    #[cold]
-    fn force<const FMA: bool>(&mut self, counts: &mut Counts) {
+    #[inline(always)]
+    fn force<V: Vector>(&mut self, counts: &mut Counts) {
         let end = self.columns;
         while counts.eliminated < end {
             let k = counts.eliminated;
-            let found = self.find(k, end, PREFERRED);
-            let found = found.or_else(|| self.find(k, end, 0.0));
+            let found = self.find::<V>(k, end, PREFERRED);
+            let found = found.or_else(|| self.find::<V>(k, end, 0.0));
             // Cancellation in every pivot of order two: take the diagonal as it is.
-            self.pivot::<FMA>(found.unwrap_or(Pivot::One(k)), counts, end);
+            self.pivot::<V>(found.unwrap_or(Pivot::One(k)), counts, end);
         }
     }
 
     #[inline(always)]
-    fn pivot<const FMA: bool>(&mut self, pivot: Pivot, counts: &mut Counts, end: usize) {
+    fn pivot<V: Vector>(&mut self, pivot: Pivot, counts: &mut Counts, end: usize) {
         let k = counts.eliminated;
         match pivot {
             Pivot::Zero(t) => {
@@ -144,7 +145,7 @@ impl Panel<'_> {
                 self.swap(t, k);
                 let d = self.a[k * self.ld + k];
                 counts.negative += usize::from(d < 0.0);
-                self.eliminate_one::<FMA>(k, end);
+                self.eliminate_one::<V>(k, end);
                 counts.eliminated += 1;
             }
             Pivot::Two(t, r) => {
@@ -161,7 +162,7 @@ impl Panel<'_> {
                     0
                 };
                 counts.pairs += 1;
-                self.eliminate_two::<FMA>(k, end);
+                self.eliminate_two::<V>(k, end);
                 counts.eliminated += 2;
             }
         }
@@ -191,13 +192,13 @@ impl Panel<'_> {
 
     /// The first pivot among columns `k..end` that passes `threshold`.
     #[inline(always)]
-    fn find(&mut self, k: usize, end: usize, threshold: f64) -> Option<Pivot> {
+    fn find<V: Vector>(&mut self, k: usize, end: usize, threshold: f64) -> Option<Pivot> {
         let ld = self.ld;
-        let from = k / 4 * 4;
+        let from = k / LANES * LANES;
         for t in k..end {
             let column = &mut self.a[t * ld..(t + 1) * ld];
             let d = std::mem::take(&mut column[t]);
-            let most = largest(&column[from..]);
+            let most = largest::<V>(&column[from..]);
             column[t] = d;
             if self.noise.is(self.unknowns[t], d.abs().max(most)) {
                 return Some(Pivot::Zero(t));
@@ -213,7 +214,7 @@ impl Panel<'_> {
                     (r, link) = (k + i, value.abs());
                 }
             }
-            if r != t && link > SMALL && self.is_pair(t, r, from, threshold) {
+            if r != t && link > SMALL && self.is_pair::<V>(t, r, from, threshold) {
                 return Some(Pivot::Two(t, r));
             }
         }
@@ -222,7 +223,7 @@ impl Panel<'_> {
 
     /// Whether columns `t` and `r` make a pivot of order two.
     #[inline(always)]
-    fn is_pair(&mut self, t: usize, r: usize, from: usize, threshold: f64) -> bool {
+    fn is_pair<V: Vector>(&mut self, t: usize, r: usize, from: usize, threshold: f64) -> bool {
         let ld = self.ld;
         let (a, b, c) = (self.a[t * ld + t], self.a[t * ld + r], self.a[r * ld + r]);
         let scale = 1.0 / a.abs().max(b.abs()).max(c.abs());
@@ -231,20 +232,26 @@ impl Panel<'_> {
         if determinant < SMALL.max(0.5 * diagonal.abs().max(link.abs())) {
             return false;
         }
-        let mut without = |column: usize| {
-            let column = &mut self.a[column * ld..(column + 1) * ld];
-            let taken = [
-                std::mem::take(&mut column[t]),
-                std::mem::take(&mut column[r]),
-            ];
-            let most = largest(&column[from..]);
-            [column[t], column[r]] = taken;
-            most
-        };
-        let (most_t, most_r) = (without(t), without(r));
+        let most_t = self.without::<V>(t, [t, r], from);
+        let most_r = self.without::<V>(r, [t, r], from);
         let growth_t = (c.abs() * most_t + b.abs() * most_r) * scale;
         let growth_r = (a.abs() * most_r + b.abs() * most_t) * scale;
         threshold * growth_t.max(growth_r) <= determinant
+    }
+
+    /// Largest entry of a column but for those of two rows.
+    #[inline(always)]
+    fn without<V: Vector>(&mut self, column: usize, rows: [usize; 2], from: usize) -> f64 {
+        let column = &mut self.a[column * self.ld..(column + 1) * self.ld];
+        let taken = rows.map(|row| column[row]);
+        for row in rows {
+            column[row] = 0.0;
+        }
+        let most = largest::<V>(&column[from..]);
+        for (row, value) in rows.into_iter().zip(taken) {
+            column[row] = value;
+        }
+        most
     }
 
     /// Exchanges columns and rows `i` and `j`; D Lᵀ is needed for rows not yet tried only.
@@ -265,9 +272,9 @@ impl Panel<'_> {
 
     /// Eliminates column `k` from the columns up to `end`.
     #[inline(always)]
-    fn eliminate_one<const FMA: bool>(&mut self, k: usize, end: usize) {
+    fn eliminate_one<V: Vector>(&mut self, k: usize, end: usize) {
         let ld = self.ld;
-        let from = k / 4 * 4;
+        let from = k / LANES * LANES;
         let (left, right) = self.a.split_at_mut((k + 1) * ld);
         let pivot = &mut left[k * ld..];
         let inverse = 1.0 / pivot[k];
@@ -275,21 +282,24 @@ impl Panel<'_> {
         pivot[k] = 0.0;
         for (j, column) in (k + 1..end).zip(right.chunks_exact_mut(ld)) {
             let factor = pivot[j] * inverse;
-            axpy::<FMA>(factor, &pivot[from..], &mut column[from..]);
+            axpy::<V>(factor, &pivot[from..], &mut column[from..]);
             column[k] = 0.0;
         }
-        let kept = &mut self.w[k * ld + from..(k + 1) * ld];
-        for (value, kept) in pivot[from..].iter_mut().zip(kept) {
-            *kept = *value;
-            *value *= inverse;
+        let (values, _) = pivot[from..].as_chunks_mut::<LANES>();
+        let (kept, _) = self.w[k * ld + from..(k + 1) * ld].as_chunks_mut::<LANES>();
+        let inverse = V::splat(inverse);
+        for (values, kept) in values.iter_mut().zip(kept) {
+            let value = V::load(values);
+            value.store(kept);
+            value.times(inverse).store(values);
         }
     }
 
     /// Eliminates columns `k` and `k + 1` from the columns up to `end`.
     #[inline(always)]
-    fn eliminate_two<const FMA: bool>(&mut self, k: usize, end: usize) {
+    fn eliminate_two<V: Vector>(&mut self, k: usize, end: usize) {
         let ld = self.ld;
-        let from = k / 4 * 4;
+        let from = k / LANES * LANES;
         let [a, b, c] = self.corner(k);
         // As in LAPACK's dsytf2: scaled by the link, which is not small.
         let (over_a, over_c) = (a / b, c / b);
@@ -309,7 +319,7 @@ impl Panel<'_> {
                 inverse[0] * x + inverse[1] * y,
                 inverse[1] * x + inverse[2] * y,
             ];
-            axpy2::<FMA>(
+            axpy2::<V>(
                 factors,
                 &first[from..],
                 &second[from..],
@@ -319,30 +329,38 @@ impl Panel<'_> {
             column[k + 1] = 0.0;
         }
         let (kept_first, kept_second) = self.w[k * ld..(k + 2) * ld].split_at_mut(ld);
-        for i in from..ld {
-            let (x, y) = (first[i], second[i]);
-            kept_first[i] = x;
-            kept_second[i] = y;
-            first[i] = inverse[0] * x + inverse[1] * y;
-            second[i] = inverse[1] * x + inverse[2] * y;
+        let (first, _) = first[from..].as_chunks_mut::<LANES>();
+        let (second, _) = second[from..].as_chunks_mut::<LANES>();
+        let (kept_first, _) = kept_first[from..].as_chunks_mut::<LANES>();
+        let (kept_second, _) = kept_second[from..].as_chunks_mut::<LANES>();
+        let inverse = inverse.map(V::splat);
+        let columns = first.iter_mut().zip(second);
+        for ((first, second), (kept_first, kept_second)) in
+            columns.zip(kept_first.iter_mut().zip(kept_second))
+        {
+            let (x, y) = (V::load(first), V::load(second));
+            x.store(kept_first);
+            y.store(kept_second);
+            inverse[0].times_plus(x, inverse[1].times(y)).store(first);
+            inverse[1].times_plus(x, inverse[2].times(y)).store(second);
         }
     }
 
     /// Brings the columns from `end` on up to date with pivots `from..done`.
     #[inline(always)]
-    fn update_rest<const FMA: bool>(&mut self, from: usize, done: usize, end: usize) {
+    fn update_rest<V: Vector>(&mut self, from: usize, done: usize, end: usize) {
         let ld = self.ld;
         let (left, right) = self.a.split_at_mut(end * ld);
-        let rows = done / 4 * 4;
+        let rows = done / LANES * LANES;
         for (tile, columns) in right[..(self.columns - end) * ld]
             .chunks_mut(4 * ld)
             .enumerate()
         {
             let j = end + 4 * tile;
-            // Four rows of D Lᵀ, which may reach into the padding.
-            subtract::<FMA>(
+            // Four rows of D Lᵀ; those beyond the last column are not used.
+            subtract::<V>(
                 &left[from * ld..done * ld],
-                &self.w[from * ld..done * ld],
+                &self.w[from * ld..done * ld + 4],
                 ld,
                 rows,
                 j,
@@ -353,46 +371,6 @@ impl Panel<'_> {
             for column in columns.chunks_exact_mut(ld) {
                 column[from..done].fill(0.0);
             }
-        }
-    }
-}
-
-/// Largest magnitude.
-#[inline(always)]
-fn largest(column: &[f64]) -> f64 {
-    let (chunks, _) = column.as_chunks::<4>();
-    let mut most = [0.0_f64; 4];
-    for chunk in chunks {
-        for (most, value) in most.iter_mut().zip(chunk) {
-            let value = value.abs();
-            *most = if value > *most { value } else { *most };
-        }
-    }
-    most.into_iter().fold(0.0, f64::max)
-}
-
-/// y −= factor·x, in whole vectors.
-#[inline(always)]
-fn axpy<const FMA: bool>(factor: f64, x: &[f64], y: &mut [f64]) {
-    let (x, _) = x.as_chunks::<4>();
-    let (y, _) = y.as_chunks_mut::<4>();
-    for (x, y) in x.iter().zip(y) {
-        for (x, y) in x.iter().zip(y) {
-            *y = fused::<FMA>(-factor, *x, *y);
-        }
-    }
-}
-
-/// y −= factors·(x₁, x₂), in whole vectors.
-#[inline(always)]
-fn axpy2<const FMA: bool>(factors: [f64; 2], x1: &[f64], x2: &[f64], y: &mut [f64]) {
-    let (x1, _) = x1.as_chunks::<4>();
-    let (x2, _) = x2.as_chunks::<4>();
-    let (y, _) = y.as_chunks_mut::<4>();
-    for ((x1, x2), y) in x1.iter().zip(x2).zip(y) {
-        for lane in 0..4 {
-            let one = fused::<FMA>(-factors[0], x1[lane], y[lane]);
-            y[lane] = fused::<FMA>(-factors[1], x2[lane], one);
         }
     }
 }

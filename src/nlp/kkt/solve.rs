@@ -1,8 +1,11 @@
 //! Solution with the factors: forward, by the pivots, and backward.
 
 use super::factor::Factors;
+#[cfg(target_arch = "x86_64")]
+use super::lanes::Avx2;
+use super::lanes::{LANES, Plain, Vector};
 use super::symbolic::{Symbolic, padded};
-use super::update::fused;
+use super::update::{axpy, dot};
 
 impl Factors {
     /// Overwrites the right-hand side `x` by the solution.
@@ -20,7 +23,7 @@ impl Factors {
             unsafe { self.solve_avx2(symbolic, x) };
             return;
         }
-        self.solve_with::<false>(symbolic, x);
+        self.solve_with::<Plain>(symbolic, x);
     }
 
     /// # Safety
@@ -28,11 +31,11 @@ impl Factors {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
     unsafe fn solve_avx2(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
-        self.solve_with::<true>(symbolic, x);
+        self.solve_with::<Avx2>(symbolic, x);
     }
 
     #[inline(always)]
-    fn solve_with<const FMA: bool>(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
+    fn solve_with<V: Vector>(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
         for (front, place) in symbolic.fronts.iter().zip(&self.places) {
             let pivots = padded(place.columns);
             let ld = pivots + padded(front.border);
@@ -45,15 +48,8 @@ impl Factors {
             }
             let panel = &self.panels[place.panel..place.panel + ld * place.eliminated];
             for (k, column) in panel.chunks_exact(ld).enumerate() {
-                let from = k / 4 * 4;
-                let factor = y[k];
-                let (column, _) = column[from..].as_chunks::<4>();
-                let (rest, _) = y[from..].as_chunks_mut::<4>();
-                for (column, rest) in column.iter().zip(rest) {
-                    for (l, y) in column.iter().zip(rest) {
-                        *y = fused::<FMA>(-factor, *l, *y);
-                    }
-                }
+                let from = k / LANES * LANES;
+                axpy::<V>(y[k], &column[from..], &mut y[from..]);
             }
             let mut k = 0;
             while k < place.eliminated {
@@ -91,16 +87,8 @@ impl Factors {
             }
             let panel = &self.panels[place.panel..place.panel + ld * place.eliminated];
             for (k, column) in panel.chunks_exact(ld).enumerate().rev() {
-                let from = k / 4 * 4;
-                let (column, _) = column[from..].as_chunks::<4>();
-                let (rest, _) = y[from..].as_chunks::<4>();
-                let mut sums = [0.0; 4];
-                for (column, rest) in column.iter().zip(rest) {
-                    for lane in 0..4 {
-                        sums[lane] = fused::<FMA>(column[lane], rest[lane], sums[lane]);
-                    }
-                }
-                y[k] -= (sums[0] + sums[2]) + (sums[1] + sums[3]);
+                let from = k / LANES * LANES;
+                y[k] -= dot::<V>(&column[from..], &y[from..]);
             }
             for (y, &unknown) in y.iter().zip(&unknowns[..place.eliminated]) {
                 x[unknown as usize] = *y;

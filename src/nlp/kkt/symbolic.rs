@@ -2,12 +2,11 @@
 
 use super::amalgamation::{self, Merged};
 use super::graph::Graph;
+use super::lanes::LANES;
 use super::{Pattern, ordering, pairs};
 use std::ops::Range;
 
-/// Rows a vector register is given at a time; fronts are padded to multiples of it.
-pub(super) const LANES: usize = 4;
-
+/// Rows padded to whole vectors.
 pub(super) fn padded(rows: usize) -> usize {
     rows.next_multiple_of(LANES)
 }

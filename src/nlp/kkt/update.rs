@@ -1,20 +1,14 @@
 //! The matrix product of a factorisation, C −= A Wᵀ, in register tiles.
 
-use super::symbolic::LANES;
+use super::lanes::{LANES, Vector};
 
-/// a·b + c, in one rounding where the processor has an instruction for it.
-#[inline(always)]
-pub(super) fn fused<const FMA: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FMA { a.mul_add(b, c) } else { a * b + c }
-}
-
-/// C[r, ..4] −= Σ A[rows + …, k] W[j.., k] for the rows of `c` from `c_row` on.
+/// C[c_row.., ..] −= Σ A[row.., k] W[j.., k], for up to four columns of C.
 ///
-/// `a` and `w` are columns of length `ld`; `c` has up to four columns of length `c_ld`, of which
-/// rows `c_row..` match rows `row..` of `a`.
+/// `a` and `w` are columns of length `ld`, with four more numbers at the end of `w`; `c` is up to four columns of length `c_ld`, of which
+/// rows from `c_row` on match rows from `row` on of `a`, all of them whole vectors.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub(super) fn subtract<const FMA: bool>(
+pub(super) fn subtract<V: Vector>(
     a: &[f64],
     w: &[f64],
     ld: usize,
@@ -27,19 +21,19 @@ pub(super) fn subtract<const FMA: bool>(
     let mut done = 0;
     let rows = c_ld - c_row;
     while rows - done >= 3 * LANES {
-        tile::<FMA, 3>(a, w, ld, row + done, j, c, c_ld, c_row + done);
+        tile::<V, 3>(a, w, ld, row + done, j, c, c_ld, c_row + done);
         done += 3 * LANES;
     }
     match (rows - done) / LANES {
-        2 => tile::<FMA, 2>(a, w, ld, row + done, j, c, c_ld, c_row + done),
-        1 => tile::<FMA, 1>(a, w, ld, row + done, j, c, c_ld, c_row + done),
+        2 => tile::<V, 2>(a, w, ld, row + done, j, c, c_ld, c_row + done),
+        1 => tile::<V, 1>(a, w, ld, row + done, j, c, c_ld, c_row + done),
         _ => {}
     }
 }
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-fn tile<const FMA: bool, const R: usize>(
+fn tile<V: Vector, const R: usize>(
     a: &[f64],
     w: &[f64],
     ld: usize,
@@ -49,31 +43,107 @@ fn tile<const FMA: bool, const R: usize>(
     c_ld: usize,
     c_row: usize,
 ) {
-    let mut sums = [[[0.0; LANES]; R]; 4];
-    for (a, w) in a.chunks_exact(ld).zip(w.chunks_exact(ld)) {
-        let (a, _) = a[row..row + R * LANES].as_chunks::<LANES>();
-        let a: &[[f64; LANES]; R] = a.first_chunk().expect("R vectors");
-        let w = four(w, j);
-        for (sums, w) in sums.iter_mut().zip(w) {
-            for (sums, a) in sums.iter_mut().zip(a) {
-                for (sum, a) in sums.iter_mut().zip(a) {
-                    *sum = fused::<FMA>(*a, w, *sum);
-                }
+    let mut sums = [[V::splat(0.0); R]; 4];
+    let depth = a.len() / ld;
+    assert!(row + R * LANES <= ld && w.len() >= depth * ld + 4 && j <= ld);
+    for k in 0..depth {
+        // SAFETY: by the assertion the rows of A end within column k, and those of W, which may
+        // begin in its last rows, not beyond the array.
+        let (a, w) = unsafe {
+            (
+                &*a.as_ptr().add(k * ld + row).cast::<[[f64; LANES]; R]>(),
+                &*w.as_ptr().add(k * ld + j).cast::<[f64; 4]>(),
+            )
+        };
+        let a: [V; R] = std::array::from_fn(|r| V::load(&a[r]));
+        for (sums, &w) in sums.iter_mut().zip(w) {
+            let w = V::splat(w);
+            for (sum, a) in sums.iter_mut().zip(a) {
+                *sum = a.times_plus(w, *sum);
             }
         }
     }
     for (column, sums) in c.chunks_exact_mut(c_ld).zip(&sums) {
-        for (value, sum) in column[c_row..].iter_mut().zip(sums.as_flattened()) {
-            *value -= sum;
+        let (column, _) = column[c_row..].as_chunks_mut::<LANES>();
+        for (c, sum) in column.iter_mut().zip(sums) {
+            V::load(c).minus(*sum).store(c);
         }
     }
 }
 
-/// Four entries from `j` on; what lies beyond the end is zero.
+/// Largest magnitude, of whole vectors.
 #[inline(always)]
-fn four(w: &[f64], j: usize) -> [f64; 4] {
-    match w.get(j..j + 4) {
-        Some(w) => [w[0], w[1], w[2], w[3]],
-        None => std::array::from_fn(|i| w.get(j + i).copied().unwrap_or(0.0)),
+pub(super) fn largest<V: Vector>(column: &[f64]) -> f64 {
+    let (column, _) = column.as_chunks::<LANES>();
+    let (pairs, rest) = column.as_chunks::<2>();
+    let mut most = [V::splat(0.0); 2];
+    for [first, second] in pairs {
+        most[0] = most[0].most(V::load(first));
+        most[1] = most[1].most(V::load(second));
     }
+    if let [last] = rest {
+        most[0] = most[0].most(V::load(last));
+    }
+    most[0].most(most[1]).largest()
+}
+
+/// y −= factor·x, of whole vectors.
+#[inline(always)]
+pub(super) fn axpy<V: Vector>(factor: f64, x: &[f64], y: &mut [f64]) {
+    let factor = V::splat(-factor);
+    let (x, _) = x.as_chunks::<LANES>();
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    for (x, y) in x.iter().zip(y) {
+        factor.times_plus(V::load(x), V::load(y)).store(y);
+    }
+}
+
+/// y −= factors·(x₁, x₂), of whole vectors.
+#[inline(always)]
+pub(super) fn axpy2<V: Vector>(factors: [f64; 2], x1: &[f64], x2: &[f64], y: &mut [f64]) {
+    let factors = [V::splat(-factors[0]), V::splat(-factors[1])];
+    let (x1, _) = x1.as_chunks::<LANES>();
+    let (x2, _) = x2.as_chunks::<LANES>();
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    for ((x1, x2), y) in x1.iter().zip(x2).zip(y) {
+        let one = factors[0].times_plus(V::load(x1), V::load(y));
+        factors[1].times_plus(V::load(x2), one).store(y);
+    }
+}
+
+/// xᵀy, of whole vectors.
+#[inline(always)]
+pub(super) fn dot<V: Vector>(x: &[f64], y: &[f64]) -> f64 {
+    let (x, _) = x.as_chunks::<LANES>();
+    let (y, _) = y.as_chunks::<LANES>();
+    let (x_pairs, x_rest) = x.as_chunks::<2>();
+    let (y_pairs, y_rest) = y.as_chunks::<2>();
+    let mut sum = [V::splat(0.0); 2];
+    for (x, y) in x_pairs.iter().zip(y_pairs) {
+        sum[0] = V::load(&x[0]).times_plus(V::load(&y[0]), sum[0]);
+        sum[1] = V::load(&x[1]).times_plus(V::load(&y[1]), sum[1]);
+    }
+    if let ([x], [y]) = (x_rest, y_rest) {
+        sum[0] = V::load(x).times_plus(V::load(y), sum[0]);
+    }
+    let one = V::splat(1.0);
+    sum[0].times_plus(one, sum[1]).sum()
+}
+
+/// Largest magnitude of any numbers; `None` where one is not finite.
+#[inline(always)]
+pub(super) fn largest_finite<V: Vector>(values: &[f64]) -> Option<f64> {
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    let zero = V::splat(0.0);
+    let (mut most, mut check) = (zero, zero);
+    for values in chunks {
+        let values = V::load(values);
+        most = most.most(values);
+        check = values.times_plus(zero, check);
+    }
+    let rest_most = rest
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let finite = check.sum() == 0.0 && rest.iter().all(|value| value.is_finite());
+    finite.then(|| most.largest().max(rest_most))
 }
