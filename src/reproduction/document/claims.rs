@@ -26,6 +26,10 @@ impl Verdict {
         }
     }
 
+    fn whether(holds: bool) -> Self {
+        Self::of(holds, holds)
+    }
+
     fn of(relaxed: bool, smooth: bool) -> Self {
         match (relaxed, smooth) {
             (true, true) => Self::Holds,
@@ -77,11 +81,7 @@ fn feasible(found: &Findings) -> Claim {
                 .smallest_bound_by_diagnosis
                 .map_or_else(|| "none".into(), degrees)
         ),
-        verdict: if bounds.smallest_bound_by_grid <= bounds.published_bound {
-            Verdict::Holds
-        } else {
-            Verdict::Fails
-        },
+        verdict: Verdict::whether(bounds.smallest_bound_by_grid <= bounds.published_bound),
         why: "momentum conservation with Table I; see below".into(),
         check: "ffsm-ipopt plan config/table1.toml",
     }
@@ -133,7 +133,10 @@ fn motion(found: &Findings) -> Vec<Claim> {
                 degrees(largest(&smooth)),
                 degrees(largest(&bounded))
             ),
-            verdict: Verdict::Fails,
+            verdict: Verdict::of(
+                close(largest(&relaxed), 0.35),
+                close(largest(&smooth), 0.35),
+            ),
             why: format!(
                 "no motion ends nearer than {} (dynamic programming); 0.35 rad would be 20.1°, \
                  below what the bounds allow as well",
@@ -187,7 +190,10 @@ fn motion(found: &Findings) -> Vec<Claim> {
                 farthest(&bounded, 0),
                 farthest(&bounded, 1)
             ),
-            verdict: Verdict::Fails,
+            verdict: Verdict::of(
+                close(farthest(&relaxed, 0), 8.5) && close(farthest(&relaxed, 1), 7.0),
+                close(farthest(&smooth, 0), 8.5) && close(farthest(&smooth, 1), 7.0),
+            ),
             why: "the base position follows from joints and attitude alone (Remark 1)".into(),
             check: RELAXED,
         },
@@ -370,7 +376,7 @@ fn experiment(found: &Findings) -> Vec<Claim> {
             claim: "IV.B: base rotation under MATPM",
             published: "25.8°",
             ours: degrees(matpm),
-            verdict: Verdict::Fails,
+            verdict: Verdict::whether(close(matpm, 25.8)),
             why: "joints that move in step follow the straight path whatever their timing, and \
                   momentum fixes where the base ends; Pinocchio, SPART and MuJoCo give the same \
                   angle"
@@ -403,7 +409,7 @@ fn experiment(found: &Findings) -> Vec<Claim> {
                 "relaxed {:.2} cm, {:.2} cm; a base that did not turn: {:.2} cm, {:.2} cm",
                 planned[0], planned[1], still[0], still[1]
             ),
-            verdict: Verdict::Fails,
+            verdict: Verdict::whether(close(planned[0], 3.2) && close(planned[1], 4.2)),
             why: "with Table I the displacement follows from the final joint angles and the final \
                   attitude; x is what a base without rotation would show"
                 .into(),
@@ -413,7 +419,7 @@ fn experiment(found: &Findings) -> Vec<Claim> {
             claim: "IV.B: final displacement under MATPM, x and y",
             published: "6.5 cm, 13.4 cm",
             ours: format!("{:.2} cm, {:.2} cm", moved[0], moved[1]),
-            verdict: Verdict::Fails,
+            verdict: Verdict::whether(close(moved[0], 6.5) && close(moved[1], 13.4)),
             why: "the mass centre stays where it is (Remark 1): forces from outside moved the \
                   platform"
                 .into(),
@@ -428,4 +434,9 @@ fn degrees(value: f64) -> String {
 
 fn optional(value: Option<f64>) -> String {
     value.map_or_else(|| "none found".into(), degrees)
+}
+
+/// Within a tenth of a published figure.
+fn close(ours: f64, published: f64) -> bool {
+    (ours - published).abs() <= 0.1 * published
 }
