@@ -256,7 +256,6 @@ fn air(item: &Item<'_>, robot: &Model) -> Result<Air, ConfigError> {
     if let Some(item) = section.get("drag_area") {
         let bodies = super::values::Components {
             what: "body",
-            single: None,
             names: std::iter::once(robot.base())
                 .chain(robot.joints().iter().map(|joint| &joint.body))
                 .map(|body| body.name.clone())
