@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts bench-kkt lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts bench-kkt casadi lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -31,6 +31,9 @@ bench-parts: ## time dynamics, derivatives and solves apart, with scaling expone
 
 bench-kkt: ## our linear solver beside MUMPS on recorded systems (needs libmumps-seq-dev)
 	scripts/bench-kkt.sh
+
+casadi: ## time one collocation point beside CasADi's generated code (compiles for many minutes)
+	scripts/casadi.sh
 
 lint: ## check the formatting and run clippy, warnings being errors
 	cargo fmt --all --check

@@ -1,24 +1,26 @@
 //! First-order dual numbers with several directions at a time.
 
-use super::Scalar;
+use super::{Over, Scalar};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A value with its derivatives in `N` directions: v + Σ dᵢ εᵢ, εᵢεⱼ = 0.
 ///
 /// The derivatives lie in one array so that the compiler turns each operation into vector
-/// instructions over the directions.
+/// instructions over the directions. `FUSED` numbers round a product and a sum once: only for
+/// code that [`dispatch`](super::dispatch) runs, since the operation is a slow function call
+/// where the processor lacks it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dual<const N: usize> {
+pub struct Dual<const N: usize, const FUSED: bool = false> {
     /// The value v.
     pub value: f64,
     /// The derivatives dᵢ.
     pub gradient: [f64; N],
 }
 
-impl<const N: usize> Dual<N> {
+impl<const N: usize, const FUSED: bool> Dual<N, FUSED> {
     /// A variable whose derivative is one in direction `lane` and zero in the others.
-    #[inline]
+    #[inline(always)]
     pub fn seeded(value: f64, lane: usize) -> Self {
         let mut gradient = [0.0; N];
         gradient[lane] = 1.0;
@@ -26,18 +28,24 @@ impl<const N: usize> Dual<N> {
     }
 
     /// v and gradient α·a + β·b: what every operation comes down to.
-    #[inline]
+    #[inline(always)]
     fn combine(value: f64, alpha: f64, a: &[f64; N], beta: f64, b: &[f64; N]) -> Self {
         let mut gradient = [0.0; N];
         for i in 0..N {
-            gradient[i] = alpha * a[i] + beta * b[i];
+            gradient[i] = plus_product::<FUSED>(alpha * a[i], beta, b[i]);
         }
         Self { value, gradient }
     }
 }
 
-impl<const N: usize> Scalar for Dual<N> {
-    #[inline]
+/// a + b·c.
+#[inline(always)]
+fn plus_product<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { b.mul_add(c, a) } else { a + b * c }
+}
+
+impl<const N: usize, const FUSED: bool> Scalar for Dual<N, FUSED> {
+    #[inline(always)]
     fn constant(value: f64) -> Self {
         Self {
             value,
@@ -45,41 +53,83 @@ impl<const N: usize> Scalar for Dual<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn value(&self) -> f64 {
         self.value
     }
 
-    #[inline]
+    #[inline(always)]
     fn chain(self, value: f64, first: f64, _second: f64) -> Self {
         Self {
             value,
             gradient: self.gradient.map(|g| first * g),
         }
     }
+
+    #[inline(always)]
+    fn plus_product(mut self, a: Self, b: Self) -> Self {
+        self.value = plus_product::<FUSED>(self.value, a.value, b.value);
+        for i in 0..N {
+            let half = plus_product::<FUSED>(self.gradient[i], a.value, b.gradient[i]);
+            self.gradient[i] = plus_product::<FUSED>(half, b.value, a.gradient[i]);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn plus_multiple(mut self, a: Self, factor: f64) -> Self {
+        self.value = plus_product::<FUSED>(self.value, factor, a.value);
+        for i in 0..N {
+            self.gradient[i] = plus_product::<FUSED>(self.gradient[i], factor, a.gradient[i]);
+        }
+        self
+    }
 }
 
-impl<const N: usize> Add for Dual<N> {
+impl<const N: usize, const FUSED: bool> Over<Self> for Dual<N, FUSED> {
+    #[inline(always)]
+    fn over(self, factor: Self) -> Self {
+        self * factor
+    }
+
+    #[inline(always)]
+    fn plus(self, a: Self, factor: Self) -> Self {
+        self.plus_product(a, factor)
+    }
+
+    #[inline(always)]
+    fn minus(mut self, a: Self, factor: Self) -> Self {
+        let (by_a, by_factor) = (-a.value, -factor.value);
+        self.value = plus_product::<FUSED>(self.value, by_a, factor.value);
+        for i in 0..N {
+            let half = plus_product::<FUSED>(self.gradient[i], by_a, factor.gradient[i]);
+            self.gradient[i] = plus_product::<FUSED>(half, by_factor, a.gradient[i]);
+        }
+        self
+    }
+}
+
+impl<const N: usize, const FUSED: bool> Add for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(mut self, rhs: Self) -> Self {
         self += rhs;
         self
     }
 }
 
-impl<const N: usize> Sub for Dual<N> {
+impl<const N: usize, const FUSED: bool> Sub for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(mut self, rhs: Self) -> Self {
         self -= rhs;
         self
     }
 }
 
-impl<const N: usize> Mul for Dual<N> {
+impl<const N: usize, const FUSED: bool> Mul for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, rhs: Self) -> Self {
         Self::combine(
             self.value * rhs.value,
@@ -91,9 +141,9 @@ impl<const N: usize> Mul for Dual<N> {
     }
 }
 
-impl<const N: usize> Div for Dual<N> {
+impl<const N: usize, const FUSED: bool> Div for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn div(self, rhs: Self) -> Self {
         let r = 1.0 / rhs.value;
         let quotient = self.value * r;
@@ -101,9 +151,9 @@ impl<const N: usize> Div for Dual<N> {
     }
 }
 
-impl<const N: usize> Neg for Dual<N> {
+impl<const N: usize, const FUSED: bool> Neg for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self {
             value: -self.value,
@@ -112,8 +162,8 @@ impl<const N: usize> Neg for Dual<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Dual<N> {
-    #[inline]
+impl<const N: usize, const FUSED: bool> AddAssign for Dual<N, FUSED> {
+    #[inline(always)]
     fn add_assign(&mut self, rhs: Self) {
         self.value += rhs.value;
         for (a, b) in self.gradient.iter_mut().zip(rhs.gradient) {
@@ -122,8 +172,8 @@ impl<const N: usize> AddAssign for Dual<N> {
     }
 }
 
-impl<const N: usize> SubAssign for Dual<N> {
-    #[inline]
+impl<const N: usize, const FUSED: bool> SubAssign for Dual<N, FUSED> {
+    #[inline(always)]
     fn sub_assign(&mut self, rhs: Self) {
         self.value -= rhs.value;
         for (a, b) in self.gradient.iter_mut().zip(rhs.gradient) {
@@ -132,34 +182,34 @@ impl<const N: usize> SubAssign for Dual<N> {
     }
 }
 
-impl<const N: usize> MulAssign for Dual<N> {
-    #[inline]
+impl<const N: usize, const FUSED: bool> MulAssign for Dual<N, FUSED> {
+    #[inline(always)]
     fn mul_assign(&mut self, rhs: Self) {
         *self = *self * rhs;
     }
 }
 
-impl<const N: usize> Add<f64> for Dual<N> {
+impl<const N: usize, const FUSED: bool> Add<f64> for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(mut self, rhs: f64) -> Self {
         self.value += rhs;
         self
     }
 }
 
-impl<const N: usize> Sub<f64> for Dual<N> {
+impl<const N: usize, const FUSED: bool> Sub<f64> for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(mut self, rhs: f64) -> Self {
         self.value -= rhs;
         self
     }
 }
 
-impl<const N: usize> Mul<f64> for Dual<N> {
+impl<const N: usize, const FUSED: bool> Mul<f64> for Dual<N, FUSED> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, rhs: f64) -> Self {
         Self {
             value: self.value * rhs,
@@ -168,8 +218,8 @@ impl<const N: usize> Mul<f64> for Dual<N> {
     }
 }
 
-impl<const N: usize> Zero for Dual<N> {
-    #[inline]
+impl<const N: usize, const FUSED: bool> Zero for Dual<N, FUSED> {
+    #[inline(always)]
     fn zero() -> Self {
         Self::constant(0.0)
     }
@@ -179,8 +229,8 @@ impl<const N: usize> Zero for Dual<N> {
     }
 }
 
-impl<const N: usize> One for Dual<N> {
-    #[inline]
+impl<const N: usize, const FUSED: bool> One for Dual<N, FUSED> {
+    #[inline(always)]
     fn one() -> Self {
         Self::constant(1.0)
     }

@@ -8,13 +8,17 @@
 mod dual;
 mod function;
 mod hyper_dual;
+mod over;
 mod scalar;
+mod simd;
 mod sparse;
 mod sparsity;
 
 pub use dual::Dual;
 pub use function::Function;
 pub use hyper_dual::HyperDual;
+pub use over::Over;
 pub use scalar::Scalar;
+pub use simd::{Kernel, dispatch, has_fused};
 pub use sparse::SparseDerivatives;
 pub use sparsity::Sparsity;

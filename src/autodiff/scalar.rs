@@ -34,6 +34,18 @@ pub trait Scalar:
     /// `self.value()`.
     fn chain(self, value: f64, first: f64, second: f64) -> Self;
 
+    /// self + a·b.
+    #[inline]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self + a * b
+    }
+
+    /// self + factor·a.
+    #[inline]
+    fn plus_multiple(self, a: Self, factor: f64) -> Self {
+        self + a * factor
+    }
+
     /// Sine and cosine of an angle, rad.
     #[inline]
     fn sin_cos(self) -> (Self, Self) {

@@ -13,6 +13,7 @@ impl<Sp: Space> Tree<Sp> {
     pub fn bias<S: Scalar>(&self, dq: &[S], data: &mut Data<Sp, S>) {
         self.accelerations(dq, data);
         let (force, torque) = self.net_wrench(data);
+        (data.net_force, data.net_torque) = (force, torque);
         let per_mass = force.times(1.0 / self.total_mass);
         for (j, link) in self.links.iter().enumerate() {
             let held = match link.kind {

@@ -32,6 +32,9 @@ pub struct Data<Sp: Space, S: Scalar> {
     pub(super) acceleration: Vec<Sp::Linear<S>>,
     pub(super) force: Vec<Sp::Linear<S>>,
     pub(super) torque: Vec<Sp::Angular<S>>,
+    /// Net force, and net moment about the system's mass centre, of the Newton-Euler pass.
+    pub(super) net_force: Sp::Linear<S>,
+    pub(super) net_torque: Sp::Angular<S>,
     /// Mass centre of the whole system, m.
     pub system_center: Sp::Linear<S>,
     /// Inverse of the composite inertia I₀ about the system's mass centre, 1/(kg m²).
@@ -74,6 +77,8 @@ impl<Sp: Space, S: Scalar> Data<Sp, S> {
             acceleration: linear.clone(),
             force: linear,
             torque: angular,
+            net_force: Sp::Linear::zero(),
+            net_torque: Sp::Angular::zero(),
             system_center: Sp::Linear::zero(),
             inverse_inertia: Sp::inertia(&Sp::aligned(), &tree.base_inertia),
             inertia,

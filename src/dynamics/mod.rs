@@ -12,6 +12,7 @@
 //! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
 //! | `attitude` | the rate map of the base attitude |
 //! | `mount` | frames fixed in bodies, the end effector's among them |
+//! | `sensitivity` | first and second derivatives of the free motion, by structure |
 //!
 //! All vectors are in the axes of the base body, so that nothing depends on the base attitude.
 
@@ -27,6 +28,8 @@ mod model;
 mod momentum;
 mod mount;
 mod planarity;
+mod screw;
+mod sensitivity;
 pub mod space;
 mod tree;
 
@@ -36,4 +39,6 @@ pub use ldl::Ldl;
 pub use model::{Body, Joint, JointKind, JointLimits, Model, ModelError, Placement};
 pub use mount::Mount;
 pub use planarity::{Deviation, Plane};
+pub use screw::Screws;
+pub use sensitivity::Sensitivity;
 pub use tree::Tree;

@@ -1,7 +1,7 @@
 //! Frames fixed in bodies: the end effector, and points that are kept clear of each other.
 
-use super::space::Space;
-use super::{Data, Placement, Tree};
+use super::space::{Space, Vector};
+use super::{Data, JointKind, Placement, Tree};
 use crate::autodiff::Scalar;
 
 /// A frame fixed in the body of a joint, or in the base.
@@ -32,6 +32,52 @@ impl<Sp: Space> Tree<Sp> {
             Some(j) => data.origin[j] + Sp::rotated(&data.orientation[j], &mount.offset),
             None => Sp::rotated(&Sp::aligned(), &mount.offset),
         }
+    }
+
+    /// Change of [`Tree::position`] by joint position `k`, m a rad or m.
+    pub fn position_by(
+        &self,
+        mount: &Mount<Sp>,
+        data: &Data<Sp, f64>,
+        k: usize,
+    ) -> Sp::Linear<f64> {
+        if !self.carries(k, mount.link) {
+            return Sp::Linear::zero();
+        }
+        match self.links[k].kind {
+            JointKind::Revolute => {
+                let arm = self.position(mount, data) - data.origin[k];
+                Sp::swept(&data.axis[k], &arm)
+            }
+            JointKind::Prismatic => data.slide[k],
+        }
+    }
+
+    /// Second derivative of [`Tree::position`] by joint positions `k` and `l`.
+    pub fn position_by_both(
+        &self,
+        mount: &Mount<Sp>,
+        data: &Data<Sp, f64>,
+        k: usize,
+        l: usize,
+    ) -> Sp::Linear<f64> {
+        // The joint nearer to the base turns what the other one does.
+        let (inner, outer) = (k.min(l), k.max(l));
+        let turned =
+            self.carries(inner, mount.link) && self.links[inner].kind == JointKind::Revolute;
+        if turned {
+            Sp::swept(&data.axis[inner], &self.position_by(mount, data, outer))
+        } else {
+            Sp::Linear::zero()
+        }
+    }
+
+    /// Whether joint `k` moves the body of joint `link`.
+    fn carries(&self, k: usize, mut link: Option<usize>) -> bool {
+        while let Some(j) = link.filter(|&j| j > k) {
+            link = self.links[j].parent;
+        }
+        link == Some(k)
     }
 
     /// Orientation of a mounted frame in the base frame. Needs [`Tree::kinematics`].

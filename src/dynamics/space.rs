@@ -1,6 +1,7 @@
 //! The plane and three-dimensional space, so that each algorithm is written once for both.
 
 use super::attitude::{Attitude, PlanarAngle, SpatialAttitude};
+use super::screw::Screws;
 use crate::autodiff::Scalar;
 use nalgebra::{Matrix3, SVector, Vector1, Vector2, Vector3};
 use std::fmt::Debug;
@@ -62,7 +63,7 @@ impl<S: Scalar, const N: usize> Vector<S> for SVector<S, N> {
 }
 
 /// Where bodies move: [`Planar`] or [`Spatial`].
-pub trait Space: Copy + Debug + Send + Sync + 'static {
+pub trait Space: Screws<Moments = <Self as Space>::Inertia<f64>> {
     /// Number of components of an angular velocity: 1 in the plane, 3 in space.
     const ANGLES: usize;
     /// Number of components of a position: 2 or 3.

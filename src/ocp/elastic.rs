@@ -1,6 +1,7 @@
 //! Limits that give way at a price: finds which limits of a problem cannot hold.
 
-use super::{Ends, Formulation, Interval, Ocp, Passage, Point, Quantity};
+use super::elastic_derivatives::ElasticDerivatives;
+use super::{Ends, Formulation, Interval, Ocp, Passage, Point, PointDerivatives, Quantity};
 use crate::autodiff::Scalar;
 
 /// One bound that may give way.
@@ -41,11 +42,11 @@ pub struct LimitGroup {
 #[derive(Debug)]
 pub struct Elastic<'a, O> {
     inner: &'a O,
-    groups: Vec<LimitGroup>,
-    regularization: f64,
-    base: Formulation,
+    pub(super) groups: Vec<LimitGroup>,
+    pub(super) regularization: f64,
+    pub(super) base: Formulation,
     /// Path rows beyond the inner ones: (bound, group, interval).
-    path: Vec<(Limited, usize, Interval)>,
+    pub(super) path: Vec<(Limited, usize, Interval)>,
     boundary: Vec<(End, usize, Interval)>,
     /// The same of each way-point.
     way_points: Vec<Vec<(End, usize, Interval)>>,
@@ -297,6 +298,11 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         let inner = Passage { x, ..passage };
         self.inner.way_point(inner, &mut scratch.inner, inner_rows);
         self.bound_ends(&self.way_points[w], x, amounts, inner_rows, elastic_rows);
+    }
+
+    fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
+        let inner = self.inner.derivatives()?;
+        Some(Box::new(ElasticDerivatives::new(self, inner)))
     }
 
     fn has_branches(&self) -> bool {

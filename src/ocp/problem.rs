@@ -1,6 +1,6 @@
 //! The optimal control problem as a trait.
 
-use super::Interval;
+use super::{Interval, PointDerivatives};
 use crate::autodiff::Scalar;
 
 /// A named quantity with its bounds.
@@ -145,6 +145,12 @@ pub trait Ocp: Sync {
         rows: &mut [S],
     ) {
         let _ = (passage, scratch, rows);
+    }
+
+    /// Derivatives of [`Ocp::continuous`] by the problem's own structure, where it has any that
+    /// beat dual numbers swept over the whole function.
+    fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
+        None
     }
 
     /// Whether derivatives may vanish in one region and not in another, so that sampling could

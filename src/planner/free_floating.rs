@@ -4,12 +4,16 @@ use super::Problem;
 use super::goal::GoalRows;
 use super::keep_out::KeepOutRow;
 use super::momentum::Drift;
+use super::node_derivatives;
 use super::turn::{ROTATION, TurnLimits};
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::{Attitude, PlanarAngle};
 use crate::dynamics::space::{Planar, Space, Spatial, Vector};
 use crate::dynamics::{Data, Tree};
-use crate::ocp::{Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Passage, Point, Quantity};
+use crate::ocp::{
+    Ends, Formulation, Interval, LimitGroup, Limited, Ocp, Passage, Point, PointDerivatives,
+    Quantity,
+};
 use crate::transcription::Discretization;
 
 /// States x = [η, θ, θ̇], controls u = H⁻¹τ.
@@ -20,19 +24,19 @@ use crate::transcription::Discretization;
 #[derive(Debug, Clone)]
 pub struct FreeFloating<Sp: Space> {
     tree: Tree<Sp>,
-    attitude: Sp::Attitude,
+    pub(super) attitude: Sp::Attitude,
     formulation: Formulation,
-    cost: super::Cost,
+    pub(super) cost: super::Cost,
     start_position: Sp::Linear<f64>,
-    rate_rows: bool,
-    torque_rows: bool,
-    torque_cost: bool,
+    pub(super) rate_rows: bool,
+    pub(super) torque_rows: bool,
+    pub(super) torque_cost: bool,
     goal: Option<GoalRows<Sp>>,
     /// Goal at each way-point.
     way_points: Vec<Option<GoalRows<Sp>>>,
-    drift: Drift<Sp>,
+    pub(super) drift: Drift<Sp>,
     turn: TurnLimits,
-    keep_out: Vec<KeepOutRow<Sp>>,
+    pub(super) keep_out: Vec<KeepOutRow<Sp>>,
 }
 
 impl FreeFloating<Planar> {
@@ -542,6 +546,10 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
         }
     }
 
+    fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
+        Some(node_derivatives::of(self))
+    }
+
     fn boundary<S: Scalar>(
         &self,
         ends: Ends<'_, S>,
@@ -596,6 +604,26 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
 }
 
 impl<Sp: Space> FreeFloating<Sp> {
+    /// How many values [`Self::base_outputs`] writes.
+    pub(super) fn base_output_count(&self) -> usize {
+        self.attitude.count() + Sp::ANGLES + self.turn.path().len()
+    }
+
+    /// What η and ω₀ alone determine: η̇, then the rates that limits and costs are about, then the
+    /// path rows of the rotation angle.
+    pub(super) fn base_outputs<S: Scalar>(&self, eta: &[S], omega: &Sp::Angular<S>, out: &mut [S]) {
+        let (rates, rest) = out.split_at_mut(self.attitude.count());
+        let (spin, turn_rows) = rest.split_at_mut(Sp::ANGLES);
+        self.attitude.rates(eta, omega, rates);
+        spin.copy_from_slice(if self.attitude.is_angles() {
+            rates
+        } else {
+            omega.components()
+        });
+        self.turn
+            .path_values(|| self.attitude.squared_turn(eta), turn_rows);
+    }
+
     /// ℒ of (14), with the weights on u and τ.
     fn running_cost<S: Scalar>(&self, spin: &[S], dtheta: &[S], u: &[S], torque: &[S]) -> S {
         let cost = &self.cost;

@@ -1,6 +1,6 @@
 //! Spheres on the arm that are kept out of others, and of boxes on the base.
 
-use crate::autodiff::Scalar;
+use crate::autodiff::{HyperDual, Scalar};
 use crate::dynamics::space::{Space, Vector};
 use crate::dynamics::{Data, Mount, Placement, Tree};
 use crate::ocp::{Interval, Quantity};
@@ -113,7 +113,11 @@ impl<Sp: Space> KeepOutRow<Sp> {
     /// Squared distance over the least one, or the box's rounded norm to its power.
     pub fn value<S: Scalar>(&self, tree: &Tree<Sp>, data: &Data<Sp, S>) -> S {
         let (Solid::Sphere(other, _) | Solid::Box(other, _)) = &self.from;
-        let apart = tree.position(&self.sphere, data) - tree.position(other, data);
+        self.measure(tree.position(&self.sphere, data) - tree.position(other, data))
+    }
+
+    /// The value for the vector from the other solid's centre to the sphere's.
+    fn measure<S: Scalar>(&self, apart: Sp::Linear<S>) -> S {
         match &self.from {
             Solid::Sphere(_, scale) => apart.dot(&apart) * *scale,
             Solid::Box(_, scales) => {
@@ -126,4 +130,57 @@ impl<Sp: Space> KeepOutRow<Sp> {
             }
         }
     }
+
+    /// The value with its derivatives by the vector's components.
+    fn measured(&self, tree: &Tree<Sp>, data: &Data<Sp, f64>) -> HyperDual<3, 3> {
+        let (Solid::Sphere(other, _) | Solid::Box(other, _)) = &self.from;
+        let apart = tree.position(&self.sphere, data) - tree.position(other, data);
+        let mut seeded = [HyperDual::constant(0.0); 3];
+        for (i, (to, &c)) in seeded.iter_mut().zip(apart.components()).enumerate() {
+            *to = HyperDual::seeded(c, Some(i), Some(i));
+        }
+        self.measure(Sp::Linear::from_components(&seeded[..Sp::LENGTHS]))
+    }
+
+    /// Change of the vector by joint position `k`.
+    fn apart_by(&self, tree: &Tree<Sp>, data: &Data<Sp, f64>, k: usize) -> Sp::Linear<f64> {
+        let (Solid::Sphere(other, _) | Solid::Box(other, _)) = &self.from;
+        tree.position_by(&self.sphere, data, k) - tree.position_by(other, data, k)
+    }
+
+    /// Adds the value's derivatives by the joint positions to `row`.
+    pub fn gradient(&self, tree: &Tree<Sp>, data: &Data<Sp, f64>, row: &mut [f64]) {
+        let slope = self.measured(tree, data).rows;
+        for (k, sum) in row.iter_mut().enumerate() {
+            let by = self.apart_by(tree, data, k);
+            *sum += inner(by.components(), &slope);
+        }
+    }
+
+    /// Hands each second derivative by joint positions k ≥ l to `add`.
+    pub fn curvature(
+        &self,
+        tree: &Tree<Sp>,
+        data: &Data<Sp, f64>,
+        mut add: impl FnMut(usize, usize, f64),
+    ) {
+        let (Solid::Sphere(other, _) | Solid::Box(other, _)) = &self.from;
+        let measured = self.measured(tree, data);
+        for k in 0..tree.joint_count() {
+            let by_k = self.apart_by(tree, data, k);
+            let bent = measured.block.map(|row| inner(by_k.components(), &row));
+            for l in 0..=k {
+                let by_l = self.apart_by(tree, data, l);
+                let by_both = tree.position_by_both(&self.sphere, data, k, l)
+                    - tree.position_by_both(other, data, k, l);
+                let second =
+                    inner(by_l.components(), &bent) + inner(by_both.components(), &measured.rows);
+                add(k, l, second);
+            }
+        }
+    }
+}
+
+fn inner(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

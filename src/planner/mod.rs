@@ -15,6 +15,7 @@ mod keep_out;
 mod matpm;
 mod method;
 mod momentum;
+mod node_derivatives;
 mod plan;
 mod problem;
 mod radau;

@@ -58,6 +58,11 @@ impl<Sp: Space> Drift<Sp> {
         }
     }
 
+    /// Angular momentum, inertial axes; `None` where there is none.
+    pub fn angular(&self) -> Option<&Sp::Angular<f64>> {
+        self.angular.as_ref()
+    }
+
     /// Moves `position` with the system's mass centre, `t` seconds after t₀.
     pub fn carry<S: Scalar>(&self, t: S, position: &mut [S]) {
         let velocity = self.velocity.iter().flat_map(|v| v.components());

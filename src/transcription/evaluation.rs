@@ -1,6 +1,7 @@
 //! Evaluates an optimal control problem at all collocation points, each thing once a point.
 
 use super::functions::{Boundary, Node};
+use super::node_derivatives::NodeDerivatives;
 use super::way_point::{Passage, passages};
 use super::{Layout, Patterns};
 use crate::autodiff::{Function, SparseDerivatives};
@@ -16,7 +17,7 @@ pub(super) struct Evaluation<'a, O: Ocp> {
     fractions: Vec<f64>,
     pub node: Node<'a, O>,
     pub ends: Boundary<'a, O>,
-    pub node_derivatives: SparseDerivatives<Node<'a, O>>,
+    pub node_derivatives: NodeDerivatives<'a, O>,
     pub end_derivatives: SparseDerivatives<Boundary<'a, O>>,
     /// Outputs of every point, by points.
     pub values: Vec<f64>,
@@ -41,7 +42,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
     ) -> Self {
         let node = Node::new(ocp, formulation);
         let ends = Boundary::new(ocp, formulation);
-        let node_derivatives = SparseDerivatives::new(&node, patterns.node.clone());
+        let node_derivatives = NodeDerivatives::new(&node, patterns.node.clone());
         let end_derivatives = SparseDerivatives::new(&ends, patterns.ends.clone());
         let mut fractions = mesh.node_fractions();
         fractions.pop();

@@ -8,6 +8,7 @@ mod hessian;
 mod jacobian;
 mod layout;
 mod names;
+mod node_derivatives;
 mod patterns;
 mod program;
 mod way_point;

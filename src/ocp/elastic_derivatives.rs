@@ -1,0 +1,113 @@
+//! Derivatives of a problem with elastic limits from those of the problem inside.
+
+use super::{Elastic, Limited, Ocp, Point, PointDerivatives};
+
+pub(super) struct ElasticDerivatives<'a, O> {
+    problem: &'a Elastic<'a, O>,
+    inner: Box<dyn PointDerivatives + 'a>,
+    /// States, amounts, controls and own path rows.
+    states: usize,
+    amounts: usize,
+    controls: usize,
+    path: usize,
+    weights: Vec<f64>,
+    first: Vec<f64>,
+    second: Vec<f64>,
+}
+
+impl<'a, O: Ocp> ElasticDerivatives<'a, O> {
+    pub fn new(problem: &'a Elastic<'a, O>, inner: Box<dyn PointDerivatives + 'a>) -> Self {
+        let (states, controls) = problem.base.widths();
+        let path = problem.base.path.len();
+        let (inputs, outputs) = (states + controls + 1, states + path + 1);
+        Self {
+            problem,
+            inner,
+            states,
+            amounts: problem.groups.len(),
+            controls,
+            path,
+            weights: vec![0.0; outputs],
+            first: vec![0.0; outputs * inputs],
+            second: vec![0.0; inputs * inputs],
+        }
+    }
+
+    fn inputs(&self) -> usize {
+        self.states + self.controls + 1
+    }
+
+    /// Where an input of the problem inside stands here.
+    fn outer(&self, input: usize) -> usize {
+        if input < self.states {
+            input
+        } else {
+            input + self.amounts
+        }
+    }
+}
+
+impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
+    fn jacobian(&mut self, point: Point<'_, f64>, jacobian: &mut [f64]) {
+        let x = &point.x[..self.states];
+        self.inner.jacobian(Point { x, ..point }, &mut self.first);
+        jacobian.fill(0.0);
+        let (from, width) = (self.inputs(), self.inputs() + self.amounts);
+        let last = self.states + self.path;
+        let elastic = 2 * self.problem.path.len();
+        for row in 0..=last {
+            let (to, factor) = match row {
+                _ if row < self.states => (row, 1.0),
+                _ if row < last => (row + self.amounts, 1.0),
+                _ => (row + self.amounts + elastic, self.problem.regularization),
+            };
+            for input in 0..from {
+                jacobian[to * width + self.outer(input)] = factor * self.first[row * from + input];
+            }
+        }
+        let own = last + self.amounts;
+        for (k, &(member, group, _)) in self.problem.path.iter().enumerate() {
+            let scale = self.problem.groups[group].scale;
+            for (row, sign) in [(own + 2 * k, -1.0), (own + 2 * k + 1, 1.0)] {
+                let to = &mut jacobian[row * width..(row + 1) * width];
+                match member {
+                    Limited::State(i) | Limited::Terminal(i) => to[i] = 1.0,
+                    Limited::Control(i) => to[self.outer(self.states + i)] = 1.0,
+                    Limited::Path(i) => {
+                        for input in 0..from {
+                            to[self.outer(input)] = self.first[(self.states + i) * from + input];
+                        }
+                    }
+                    _ => unreachable!("bounds at one instant are not path rows"),
+                }
+                to[self.states + group] = sign * scale;
+            }
+        }
+    }
+
+    fn hessian(&mut self, point: Point<'_, f64>, weights: &[f64], hessian: &mut [f64]) {
+        let (states, path) = (self.states, self.path);
+        let (rates, rest) = weights.split_at(states);
+        let (rows, rest) = rest[self.amounts..].split_at(path);
+        let (elastic, cost) = rest.split_at(rest.len() - 1);
+        self.weights[..states].copy_from_slice(rates);
+        self.weights[states..states + path].copy_from_slice(rows);
+        self.weights[states + path] = cost[0] * self.problem.regularization;
+        for (pair, (member, ..)) in elastic.chunks_exact(2).zip(&self.problem.path) {
+            if let Limited::Path(i) = member {
+                self.weights[states + i] += pair[0] + pair[1];
+            }
+        }
+        let x = &point.x[..states];
+        self.inner
+            .hessian(Point { x, ..point }, &self.weights, &mut self.second);
+        hessian.fill(0.0);
+        let (from, width) = (self.inputs(), self.inputs() + self.amounts);
+        for row in 0..from {
+            for column in 0..=row {
+                hessian[self.outer(row) * width + self.outer(column)] =
+                    self.second[row * from + column];
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Values and derivatives of one collocation point, swept or by the problem's own structure.
+
+use super::functions::Node;
+use crate::autodiff::{Function, SparseDerivatives, Sparsity};
+use crate::ocp::{Ocp, Point, PointDerivatives};
+
+/// Values, nonzeros of the Jacobian and of the weighted Hessian of a [`Node`]: what one thread
+/// needs, allocated once.
+pub(super) struct NodeDerivatives<'a, O: Ocp> {
+    sparsity: Sparsity,
+    nonzeros: usize,
+    plain: O::Scratch<f64>,
+    way: Way<'a, O>,
+}
+
+enum Way<'a, O: Ocp> {
+    /// Dual numbers swept over the whole function.
+    Swept(Box<SparseDerivatives<Node<'a, O>>>),
+    /// The problem's own, dense, of which the nonzeros are picked.
+    Own {
+        derivatives: Box<dyn PointDerivatives + 'a>,
+        dense: Vec<f64>,
+        jacobian: Vec<usize>,
+        hessian: Vec<usize>,
+    },
+}
+
+impl<'a, O: Ocp> NodeDerivatives<'a, O> {
+    pub fn new(node: &Node<'a, O>, sparsity: Sparsity) -> Self {
+        let (inputs, outputs) = (node.inputs(), node.outputs());
+        let way = match node.ocp.derivatives() {
+            None => Way::Swept(Box::new(SparseDerivatives::new(node, sparsity.clone()))),
+            Some(derivatives) => Way::Own {
+                derivatives,
+                dense: vec![0.0; inputs * inputs.max(outputs)],
+                jacobian: (sparsity.jacobian.iter().enumerate())
+                    .flat_map(|(row, columns)| columns.iter().map(move |c| row * inputs + c))
+                    .collect(),
+                hessian: sparsity
+                    .hessian
+                    .iter()
+                    .map(|(i, j)| i * inputs + j)
+                    .collect(),
+            },
+        };
+        Self {
+            nonzeros: sparsity.jacobian.iter().map(Vec::len).sum(),
+            plain: node.ocp.scratch(),
+            way,
+            sparsity,
+        }
+    }
+
+    /// The nonzero pattern.
+    pub fn sparsity(&self) -> &Sparsity {
+        &self.sparsity
+    }
+
+    /// Number of nonzeros of the Jacobian.
+    pub fn jacobian_nonzeros(&self) -> usize {
+        self.nonzeros
+    }
+
+    /// Values at the inputs `v`, into `out`.
+    pub fn values(&mut self, node: &Node<'a, O>, v: &[f64], out: &mut [f64]) {
+        node.evaluate(v, &mut self.plain, out);
+    }
+
+    /// Nonzeros of the Jacobian at `v`, output by output.
+    pub fn jacobian(&mut self, node: &Node<'a, O>, v: &[f64], out: &mut [f64]) {
+        match &mut self.way {
+            Way::Swept(swept) => swept.jacobian(node, v, out),
+            Way::Own {
+                derivatives,
+                dense,
+                jacobian,
+                ..
+            } => {
+                let dense = &mut dense[..node.outputs() * node.inputs()];
+                derivatives.jacobian(point(node, v), dense);
+                pick(dense, jacobian, out);
+            }
+        }
+    }
+
+    /// Nonzeros of Σ weightsᵢ ∇²fᵢ at `v`, in the order of [`Sparsity::hessian`].
+    pub fn hessian(&mut self, node: &Node<'a, O>, v: &[f64], weights: &[f64], out: &mut [f64]) {
+        match &mut self.way {
+            Way::Swept(swept) => swept.hessian(node, v, weights, out),
+            Way::Own {
+                derivatives,
+                dense,
+                hessian,
+                ..
+            } => {
+                let dense = &mut dense[..node.inputs() * node.inputs()];
+                derivatives.hessian(point(node, v), weights, dense);
+                pick(dense, hessian, out);
+            }
+        }
+    }
+}
+
+fn point<'v, O: Ocp>(node: &Node<'_, O>, v: &'v [f64]) -> Point<'v, f64> {
+    let (x, u) = v[..node.time()].split_at(node.states);
+    let t = v[node.time()];
+    Point { x, u, t }
+}
+
+fn pick(dense: &[f64], from: &[usize], out: &mut [f64]) {
+    for (to, &from) in out.iter_mut().zip(from) {
+        *to = dense[from];
+    }
+}
