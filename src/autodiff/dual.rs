@@ -11,20 +11,54 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 /// code that [`dispatch`](super::dispatch) runs, since the operation is a slow function call
 /// where the processor lacks it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(32))]
 pub struct Dual<const N: usize, const FUSED: bool = false> {
-    /// The value v.
-    pub value: f64,
     /// The derivatives dᵢ.
     pub gradient: [f64; N],
+    /// The value v.
+    pub value: f64,
 }
 
 impl<const N: usize, const FUSED: bool> Dual<N, FUSED> {
+    /// One in each lane, zero in the others.
+    const UNITS: [[f64; N]; N] = {
+        let mut units = [[0.0; N]; N];
+        let mut lane = 0;
+        while lane < N {
+            units[lane][lane] = 1.0;
+            lane += 1;
+        }
+        units
+    };
+
+    /// Adds `by` to the derivative in direction `lane`.
+    ///
+    /// By a whole vector: to write one number where vectors are read next stalls the processor.
+    #[inline(always)]
+    pub fn nudge(&mut self, lane: usize, by: f64) {
+        let unit = &Self::UNITS[lane];
+        for i in 0..N {
+            self.gradient[i] = plus_product::<FUSED>(self.gradient[i], by, unit[i]);
+        }
+    }
+
     /// A variable whose derivative is one in direction `lane` and zero in the others.
     #[inline(always)]
     pub fn seeded(value: f64, lane: usize) -> Self {
         let mut gradient = [0.0; N];
         gradient[lane] = 1.0;
         Self { value, gradient }
+    }
+
+    /// Another value, the derivatives times `factor`.
+    // A loop: closures are not surely inlined into code for wide vectors.
+    #[inline(always)]
+    fn scaled(mut self, value: f64, factor: f64) -> Self {
+        self.value = value;
+        for i in 0..N {
+            self.gradient[i] *= factor;
+        }
+        self
     }
 
     /// v and gradient α·a + β·b: what every operation comes down to.
@@ -60,10 +94,7 @@ impl<const N: usize, const FUSED: bool> Scalar for Dual<N, FUSED> {
 
     #[inline(always)]
     fn chain(self, value: f64, first: f64, _second: f64) -> Self {
-        Self {
-            value,
-            gradient: self.gradient.map(|g| first * g),
-        }
+        self.scaled(value, first)
     }
 
     #[inline(always)]
@@ -155,10 +186,7 @@ impl<const N: usize, const FUSED: bool> Neg for Dual<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self {
-            value: -self.value,
-            gradient: self.gradient.map(|g| -g),
-        }
+        self.scaled(-self.value, -1.0)
     }
 }
 
@@ -166,8 +194,8 @@ impl<const N: usize, const FUSED: bool> AddAssign for Dual<N, FUSED> {
     #[inline(always)]
     fn add_assign(&mut self, rhs: Self) {
         self.value += rhs.value;
-        for (a, b) in self.gradient.iter_mut().zip(rhs.gradient) {
-            *a += b;
+        for i in 0..N {
+            self.gradient[i] += rhs.gradient[i];
         }
     }
 }
@@ -176,8 +204,8 @@ impl<const N: usize, const FUSED: bool> SubAssign for Dual<N, FUSED> {
     #[inline(always)]
     fn sub_assign(&mut self, rhs: Self) {
         self.value -= rhs.value;
-        for (a, b) in self.gradient.iter_mut().zip(rhs.gradient) {
-            *a -= b;
+        for i in 0..N {
+            self.gradient[i] -= rhs.gradient[i];
         }
     }
 }
@@ -211,10 +239,7 @@ impl<const N: usize, const FUSED: bool> Mul<f64> for Dual<N, FUSED> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, rhs: f64) -> Self {
-        Self {
-            value: self.value * rhs,
-            gradient: self.gradient.map(|g| g * rhs),
-        }
+        self.scaled(self.value * rhs, rhs)
     }
 }
 

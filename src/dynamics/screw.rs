@@ -117,8 +117,11 @@ impl Screws for Spatial {
             diagonal: [xx, yy, zz],
             products: [yz, xz, xy],
         } = *inertia;
-        let row = |x: f64, y: f64, z: f64| (w[0] * x).plus(w[1], y).plus(w[2], z);
-        [row(xx, xy, xz), row(xy, yy, yz), row(xz, yz, zz)]
+        [
+            (w[0] * xx).plus(w[1], xy).plus(w[2], xz),
+            (w[0] * xy).plus(w[1], yy).plus(w[2], yz),
+            (w[0] * xz).plus(w[1], yz).plus(w[2], zz),
+        ]
     }
     #[inline(always)]
     fn spread(inertia: &Symmetric<f64>) -> Symmetric<f64> {
@@ -332,7 +335,7 @@ impl<Sp: Screws, const N: usize, const FUSED: bool> Screw<Sp, Dual<N, FUSED>> {
     pub fn nudge(&mut self, lane: Option<usize>, by: &Screw<Sp, f64>, factor: f64) {
         if let Some(lane) = lane {
             for (to, by) in self.iter_mut().zip(by.iter()) {
-                to.gradient[lane] += factor * by;
+                to.nudge(lane, factor * by);
             }
         }
     }

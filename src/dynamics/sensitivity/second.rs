@@ -70,6 +70,17 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     }
 }
 
+/// Adds the values of `angle` to `sum`.
+#[inline(always)]
+fn add_values<Sp: Space, const N: usize, const FUSED: bool>(
+    sum: &mut Sp::Angle<f64>,
+    angle: &Sp::Angle<Dual<N, FUSED>>,
+) {
+    for (sum, c) in sum.as_mut().iter_mut().zip(angle.as_ref()) {
+        *sum += c.value;
+    }
+}
+
 /// One sweep.
 struct Second<'a, Sp: Space, const N: usize, const FUSED: bool> {
     of: &'a mut Sensitivity<Sp, N, FUSED>,
@@ -91,11 +102,6 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
         // Outwards: motions, and what each body makes of them.
         of.velocities(start, &base_velocity);
         let mut couple = Sp::Angle::<f64>::zero();
-        let mut add_couple = |c: &Sp::Angle<Dual<N, FUSED>>| {
-            for (sum, c) in couple.as_mut().iter_mut().zip(c.as_ref()) {
-                *sum += c.value;
-            }
-        };
         for j in 0..n {
             let body = &of.fixed.bodies[j];
             let axis = &of.fixed.axes[j];
@@ -112,7 +118,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
             let at_center = body.at_center(&velocity);
             let beside = body.at_center(&motion);
             let weight = body.couple((&velocity, &at_center), (&motion, &beside));
-            add_couple(&weight);
+            add_values::<Sp, N, FUSED>(&mut couple, &weight);
             of.passes.force[j] = body.force(&velocity, &at_center, &acceleration);
             of.passes.acceleration[j] = acceleration;
             let adjoint = &mut of.adjoint;
@@ -131,7 +137,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
             (&base_velocity, &own.at_center(&base_velocity)),
             (&base_virtual, &beside),
         );
-        add_couple(&own_weight);
+        add_values::<Sp, N, FUSED>(&mut couple, &own_weight);
         let mut virtual_momentum = own.momentum(&base_virtual, &beside);
 
         // The motion, rigid about the mass centre, whose momentum weighs against all of that.
@@ -181,8 +187,10 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
             let joint = adjoint.implied.len() - n + j;
             adjoint.implied[joint] = beside.dot(axis);
 
-            let [force, momentum, weighs, beside] =
-                [force, momentum, weighs, beside].map(|f| of.fixed.handed(start, j, f));
+            let force = of.fixed.handed(start, j, force);
+            let momentum = of.fixed.handed(start, j, momentum);
+            let weighs = of.fixed.handed(start, j, weighs);
+            let beside = of.fixed.handed(start, j, beside);
             match of.fixed.parents[j] {
                 Some(parent) => {
                     of.passes.force[parent].add(&force);

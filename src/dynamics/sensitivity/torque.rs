@@ -151,8 +151,8 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
         let fields = &mut of.torque;
         for j in 0..n {
             let axis = &of.fixed.axes[j];
-            let [controls, weights] =
-                [CONTROLS, WEIGHTS].map(|k| axis.across(&fields.motion[k][j]));
+            let controls = axis.across(&fields.motion[CONTROLS][j]);
+            let weights = axis.across(&fields.motion[WEIGHTS][j]);
             let sum = controls.dot(&fields.momentum[WEIGHTS][j])
                 + weights.dot(&fields.momentum[CONTROLS][j]);
             fields.row[j] = -sum;
