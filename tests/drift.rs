@@ -154,9 +154,5 @@ fn a_base_that_turns_over_by_roll_pitch_yaw() {
     problem.mesh.segments = 8;
     problem.mesh.points = 4;
     let plan = plan(&problem).unwrap();
-    assert!(
-        plan.status != Status::Solved || plan.objective > 1.0,
-        "J = {}",
-        plan.objective
-    );
+    assert!(plan.objective > 2.0, "J = {}", plan.objective);
 }
