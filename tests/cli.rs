@@ -824,7 +824,7 @@ fn compare_sets_every_planner_side_by_side() {
     for part in [
         "Base attitude",
         "Base displacement",
-        "Joint shoulder",
+        "shoulder",
         "acceleration-qp",
         "limit",
     ] {

@@ -3,6 +3,7 @@
 mod problems;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
+use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{
@@ -348,5 +349,32 @@ fn tasks_that_are_not_in_joint_space_are_refused_by_their_key() {
             Err(PlanError::Problem(error)) => assert_eq!(error.key, key),
             other => panic!("{}: {other:?}", method.name()),
         }
+    }
+}
+
+#[test]
+fn a_motion_is_the_same_however_the_base_attitude_is_described() {
+    let by_angles = shipped("chaser-7dof");
+    let mut by_quaternion = by_angles.clone();
+    by_quaternion.set_attitude(SpatialAttitude::Quaternion);
+    by_quaternion.cost.final_base_attitude = vec![1.0];
+    for method in [
+        Method::Matpm,
+        Method::ReactionNullSpace,
+        Method::AccelerationQp,
+    ] {
+        let [a, b] = [&by_angles, &by_quaternion].map(|problem| plan(method, problem));
+        let last = |plan: &Plan| plan.trajectory.base_position.last().unwrap().clone();
+        for (x, y) in last(&a).iter().zip(last(&b)) {
+            assert!((x - y).abs() < 1e-9, "{}: {x} {y}", method.name());
+        }
+        // One rotation angle is at least the largest of three.
+        assert!(b.metrics.final_base_attitude >= a.metrics.final_base_attitude - 1e-9);
+        let terms = CostTerms::of(&by_quaternion, &b.trajectory, &b.discretization.mesh);
+        let square = b.metrics.final_base_attitude.powi(2);
+        assert!(
+            (terms.final_base_attitude - square).abs() < 1e-12,
+            "{terms:?}"
+        );
     }
 }

@@ -4,7 +4,7 @@ use super::compare::Entry;
 use crate::collocation::Mesh;
 use crate::dynamics::JointKind;
 use crate::ocp::Interval;
-use crate::planner::{Plan, Problem, Trajectory, resampled};
+use crate::planner::{Plan, Problem, Trajectory, resampled, turned};
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Stroke, Width};
 
 /// Segments of two points that a motion is drawn with.
@@ -32,14 +32,15 @@ pub(super) fn figure(problem: &Problem, entries: &[&Entry]) -> Figure {
         Some(letter) => format!("({letter}) {text}"),
         None => text.to_string(),
     };
-    let names: &[&str] = match Problem::base_sizes(&problem.robot).0 {
-        1 => &["Base attitude"],
-        _ => &["Base roll", "Base pitch", "Base yaw"],
+    let names: &[&str] = match (problem.attitude_sizes().1, problem.robot.plane()) {
+        (3, _) => &["Base roll", "Base pitch", "Base yaw"],
+        (_, Some(_)) => &["Base attitude"],
+        (_, None) => &["Base turned by"],
     };
     let degrees = 1f64.to_degrees();
     for (i, name) in names.iter().enumerate() {
         let chart = panel(&title(name), "Angle (deg)", &curves, |motion| {
-            column(&motion.base_attitude, i, degrees)
+            column(&turned(motion), i, degrees)
         });
         let chart = bounded(chart, problem.limits.base_attitude.get(i), degrees);
         let chart = if i == 0 {
@@ -61,12 +62,9 @@ pub(super) fn figure(problem: &Problem, entries: &[&Entry]) -> Figure {
             JointKind::Revolute => (degrees, "Angle (deg)"),
             JointKind::Prismatic => (100.0, "Position (cm)"),
         };
-        let chart = panel(
-            &title(&format!("Joint {}", joint.name)),
-            axis,
-            &curves,
-            |motion| column(&motion.joint_position, j, factor),
-        );
+        let chart = panel(&title(&joint.name), axis, &curves, |motion| {
+            column(&motion.joint_position, j, factor)
+        });
         let chart = bounded(chart, problem.limits.joint_position.get(j), factor);
         figure = figure.panel(chart.without_legend());
     }

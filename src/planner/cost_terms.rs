@@ -1,6 +1,6 @@
 //! The cost (14) of a planned motion, term by term.
 
-use super::{Problem, Trajectory};
+use super::{Problem, Trajectory, turned};
 use crate::collocation::Mesh;
 
 /// The terms of (14), each with its weight, by the quadrature of (25). Their sum is J.
@@ -42,7 +42,8 @@ impl CostTerms {
             (Some(first), Some(last)) => last.iter().zip(first).map(|(a, b)| a - b).collect(),
             _ => Vec::new(),
         };
-        let last = trajectory.base_attitude.last();
+        let turned = turned(trajectory);
+        let last = turned.last();
         Self {
             final_base_attitude: last.map_or(0.0, |eta| squares(&cost.final_base_attitude, eta)),
             final_base_position: squares(

@@ -62,6 +62,10 @@ pub(super) fn rest_to_rest(method: Method, problem: &Problem) -> Result<(), Prob
     if task.initial_rates.iter().any(|rate| *rate != 0.0) {
         return refused("task.initial.rates", "joints that move", "joints at rest");
     }
+    if !task.way_points.is_empty() {
+        let expected = "no way-points";
+        return refused("task.way_points", "way-points to pass", expected);
+    }
     Ok(())
 }
 

@@ -43,5 +43,5 @@ pub use problem::{Cost, Limits, Problem, ProblemError, Task};
 pub use radau::{PlanError, Planner, plan};
 pub use reached::{Reached, reached};
 pub use straight_line::{StraightLine, straight_line};
-pub use trajectory::resampled;
+pub use trajectory::{resampled, turned};
 pub use way_point::{Moment, WayPoint};

@@ -63,7 +63,7 @@ pub(super) fn trajectory<Sp: Space>(
 
 /// The angles that limits on the base attitude are about, rad: those of each row, or its rotation
 /// angle.
-fn turned(trajectory: &Trajectory) -> Vec<Vec<f64>> {
+pub fn turned(trajectory: &Trajectory) -> Vec<Vec<f64>> {
     let rows = trajectory.base_attitude.iter();
     match trajectory.attitude {
         Some(attitude) if !attitude.is_angles() => rows

@@ -18,6 +18,7 @@ mod quadratic;
 
 use super::joint_motion::{JointMotion, assemble, duration, goal_missed, rest_to_rest};
 use super::{Event, FreeFloating, Method, Plan, PlanError, Problem, Status};
+use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::Space;
 use crate::nlp::Control;
 use crate::ocp::Interval;
@@ -47,19 +48,30 @@ pub(super) fn plan(
     let began = time::Instant::now();
     rest_to_rest(Method::AccelerationQp, problem)?;
     match FreeFloating::planar(problem) {
-        Some(planar) => run(problem, &planar, monitor, began),
-        None => run(problem, &FreeFloating::spatial(problem), monitor, began),
+        Some(planar) => run([(problem, &planar); 2], monitor, began),
+        None => {
+            // References are for angles, whatever the plan is to be written in.
+            let mut by_angles = problem.clone();
+            if !problem.attitude.is_angles() {
+                by_angles.set_attitude(SpatialAttitude::RollPitchYaw);
+            }
+            let steered = FreeFloating::spatial(&by_angles);
+            let system = FreeFloating::spatial(problem);
+            let posed = [(&by_angles, &steered), (problem, &system)];
+            run(posed, monitor, began)
+        }
     }
 }
 
+/// Works its way through one of two descriptions of the same problem and writes the plan in the
+/// other.
 fn run<Sp: Space>(
-    problem: &Problem,
-    system: &FreeFloating<Sp>,
+    [(by_angles, steered), (problem, system)]: [(&Problem, &FreeFloating<Sp>); 2],
     monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     began: time::Instant,
 ) -> Result<Plan, PlanError> {
     let h = duration(problem) / STEPS as f64;
-    let mut stepper = Stepper::new(problem, system);
+    let mut stepper = Stepper::new(by_angles, steered);
     let mut motion = Motion::new(problem, h);
     let mut stopped = false;
     for k in 0..STEPS {
