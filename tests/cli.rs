@@ -124,8 +124,9 @@ fn plan_writes_solution_and_trajectory() {
     assert_eq!(solution["provenance"]["problem"]["text"], PROBLEM);
     let points = solution["points"].as_u64().unwrap() as usize;
     let trajectory = solution["trajectory"].as_object().unwrap();
-    assert_eq!(trajectory.len(), 8);
-    for rows in trajectory.values() {
+    assert_eq!(trajectory.len(), 9);
+    assert_eq!(trajectory["attitude"], "angle");
+    for rows in trajectory.values().filter(|rows| !rows.is_string()) {
         assert_eq!(rows.as_array().unwrap().len(), points + 1);
     }
     let t = &trajectory["t"];
@@ -826,7 +827,7 @@ fn compare_sets_every_planner_side_by_side() {
         "Base displacement",
         "shoulder",
         "acceleration-qp",
-        "limit",
+        "stroke-dasharray",
     ] {
         assert!(figure.contains(part), "{part}");
     }

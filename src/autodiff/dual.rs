@@ -37,8 +37,8 @@ impl<const N: usize, const FUSED: bool> Dual<N, FUSED> {
     #[inline(always)]
     pub fn nudge(&mut self, lane: usize, by: f64) {
         let unit = &Self::UNITS[lane];
-        for i in 0..N {
-            self.gradient[i] = plus_product::<FUSED>(self.gradient[i], by, unit[i]);
+        for (derivative, &one) in self.gradient.iter_mut().zip(unit) {
+            *derivative = plus_product::<FUSED>(*derivative, by, one);
         }
     }
 

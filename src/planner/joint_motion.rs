@@ -130,14 +130,15 @@ pub(super) fn assemble<Sp: Space>(
     })
 }
 
-/// Marks `plan` as infeasible where a joint does not end at its goal, with the reason `why`.
-pub(super) fn goal_missed(problem: &Problem, plan: &mut Plan, why: String) {
+/// Marks `plan` as infeasible where a joint ends further than `there` (rad or m) from its goal,
+/// with the reason `why`.
+pub(super) fn goal_missed(problem: &Problem, plan: &mut Plan, there: f64, why: String) {
     let joints = problem.robot.joints();
     let Some(reached) = plan.trajectory.joint_position.last() else {
         return;
     };
     let missed: Vec<LimitFinding> = (reached.iter().zip(&problem.task.final_joints).enumerate())
-        .filter(|(_, (q, goal))| (*q - *goal).abs() > THERE)
+        .filter(|(_, (q, goal))| (*q - *goal).abs() > there)
         .map(|(j, (&q, &goal))| LimitFinding {
             key: "task.final.joints".into(),
             bound: Interval::fixed(goal),

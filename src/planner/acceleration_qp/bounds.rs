@@ -95,7 +95,9 @@ mod tests {
             fastest = fastest.max(joint.rate);
             assert!(joint.q <= 1.0 + 1e-12 && joint.rate <= 0.7 + 1e-12);
         }
-        assert!(joint.q > 0.99 && joint.rate.abs() < 1e-3, "{joint:?}");
+        // In front of it the joint rests up to what braking changes in half a step.
+        let still = 0.5 * h * BRAKE * 0.5;
+        assert!(joint.q > 0.99 && joint.rate.abs() < still, "{joint:?}");
         assert!(fastest > 0.5);
     }
 

@@ -34,6 +34,9 @@ const FADE: i32 = 2;
 /// Smallest weight of a joint relative to the largest: all joints have a goal to reach.
 const LEAST: f64 = 1e-3;
 
+/// How near to its goal, rad or m, a joint has to end: steps that limits cut short leave a rest.
+const REACHED: f64 = 1e-4;
+
 /// Plans `problem`'s task step by step.
 ///
 /// Nothing is known at a step of those to come, so that limits may turn out not to hold or the
@@ -96,7 +99,7 @@ fn run<Sp: Space>(
         plan.diagnosis = None;
     } else {
         let why = "acceleration-qp does not reach the goal within the limits";
-        goal_missed(problem, &mut plan, why.into());
+        goal_missed(problem, &mut plan, REACHED, why.into());
     }
     Ok(plan)
 }

@@ -66,6 +66,11 @@ impl Quadratic {
         }
         let settings = DefaultSettings {
             verbose: false,
+            // The price of a row that gives way makes the cost large, so that the solver's own
+            // relative gap of 1e-8 would leave the unknowns with four digits.
+            tol_gap_abs: 1e-12,
+            tol_gap_rel: 1e-14,
+            tol_feas: 1e-11,
             ..DefaultSettings::default()
         };
         let (p, a) = (CscMatrix::from(&p), rows(&a, size));

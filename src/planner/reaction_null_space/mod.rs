@@ -12,7 +12,7 @@ mod coupling;
 mod path;
 mod search;
 
-use super::joint_motion::{JointMotion, assemble, duration, goal_missed, rest_to_rest};
+use super::joint_motion::{JointMotion, THERE, assemble, duration, goal_missed, rest_to_rest};
 use super::straight_quintic::quintic;
 use super::{FreeFloating, Method, Plan, PlanError, Problem, ProblemError};
 use crate::autodiff::Dual;
@@ -77,7 +77,7 @@ fn run<Sp: Space>(
         .cloned()
         .unwrap_or_default();
     let why = explanation::<Sp>(problem, &end, &reached);
-    goal_missed(problem, &mut plan, why);
+    goal_missed(problem, &mut plan, THERE, why);
     Ok(plan)
 }
 
