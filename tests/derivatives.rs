@@ -617,15 +617,15 @@ fn structure_and_sweeps_agree() {
         problem.cost.torque = trees::values(rng, n, 0.2);
         problem.cost.torque.iter_mut().for_each(|w| *w = w.abs());
         let rates = angles + n;
-        let mut matrix = vec![vec![0.0; rates]; rates];
-        for i in 0..rates {
-            for j in 0..i {
-                matrix[i][j] = 0.1 * trees::uniform(rng);
-                matrix[j][i] = matrix[i][j];
-            }
-            matrix[i][i] = rates as f64;
-        }
-        problem.cost.rate_matrix = Some(matrix);
+        let half: Vec<Vec<f64>> = (0..rates)
+            .map(|_| (0..rates).map(|_| 0.05 * trees::uniform(rng)).collect())
+            .collect();
+        let element = |i: usize, j: usize| match i == j {
+            true => rates as f64,
+            false => half[i][j] + half[j][i],
+        };
+        let row = |i: usize| (0..rates).map(|j| element(i, j)).collect();
+        problem.cost.rate_matrix = Some((0..rates).map(row).collect());
         let sphere = |joint| Sphere {
             joint,
             center: [0.3, 0.1, -0.2],

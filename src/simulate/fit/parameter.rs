@@ -5,7 +5,7 @@ use crate::simulate::Platform;
 /// One number of a platform, by its key in the platform file.
 #[derive(Debug, Clone, Copy)]
 pub struct Parameter {
-    /// Key, "floor.tilt[0]".
+    /// Key, `floor.tilt[0]`.
     pub key: &'static str,
     /// Unit.
     pub unit: &'static str,
