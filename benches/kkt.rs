@@ -249,6 +249,17 @@ fn main() {
                 times.residual
             );
         }
+        if let Some(ours) = &both[0] {
+            let symbolic = &systems[0].symbolic;
+            println!(
+                "{:>8} {} fronts, {} numbers in the factors, {:.2} Mflop: {:.2} Gflop/s",
+                "",
+                symbolic.fronts(),
+                symbolic.factor_size(),
+                2e-6 * symbolic.multiplications(),
+                2e-3 * symbolic.multiplications() / ours.factor
+            );
+        }
         if let [Some(ours), Some(theirs)] = &both {
             let once = (theirs.factor + theirs.solve) / (ours.factor + ours.solve);
             println!(

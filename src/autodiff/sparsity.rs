@@ -1,6 +1,6 @@
 //! Which derivatives of a function are ever nonzero.
 
-use super::{Function, HyperDual, Scalar};
+use super::{Dual, Function, HyperDual, Scalar};
 
 /// Nonzero pattern of a function's Jacobian and of its Hessians.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,12 +15,16 @@ pub struct Sparsity {
     pub active: Vec<bool>,
 }
 
-/// Rows and columns looked at together.
+/// Inputs looked at together for first derivatives.
+const WIDE: usize = 8;
+type Slope = Dual<WIDE>;
+
+/// Rows and columns looked at together for second ones.
 const TILE: usize = 4;
 type Look = HyperDual<TILE, TILE>;
 
 /// Points at which derivatives are looked at.
-const SAMPLES: usize = 6;
+const SAMPLES: usize = 3;
 /// Below this fraction of the output's largest derivative an entry is rounding error.
 const NEGLIGIBLE: f64 = 1e-12;
 
@@ -51,48 +55,28 @@ impl Sparsity {
     /// is finite, every derivative counts as nonzero.
     pub fn sampled<F: Function>(f: &F, used: &[bool], mut draw: impl FnMut(&mut [f64])) -> Self {
         let (n, m) = (f.inputs(), f.outputs());
-        let mut first = vec![vec![0.0_f64; n]; m];
-        let mut second = vec![vec![0.0_f64; n * n]; m];
-        let mut size = vec![0.0_f64; m];
+        let mut seen = Seen::new(n, m);
         let mut point = vec![0.0; n];
-        let mut taken = 0;
+        let mut points = Vec::with_capacity(SAMPLES);
         for _ in 0..20 * SAMPLES {
-            if taken == SAMPLES {
+            if points.len() == SAMPLES {
                 break;
             }
             draw(&mut point);
-            taken += usize::from(look(f, used, &point, &mut first, &mut second, &mut size));
+            if seen.first_at(f, used, &point) {
+                points.push(point.clone());
+            }
         }
-        if taken == 0 {
+        // What an output does not depend on at all cannot bend it: few inputs are left.
+        let matter: Vec<usize> = (0..n).filter(|&i| seen.matters(i)).collect();
+        let curved = points
+            .iter()
+            .filter(|point| seen.second_at(f, &matter, point))
+            .count();
+        if curved == 0 {
             return Self::dense(m, used);
         }
-        let peak = |row: &[f64]| row.iter().copied().fold(0.0, f64::max);
-        let jacobian = first
-            .iter()
-            .map(|row| {
-                (0..n)
-                    .filter(|&i| row[i] > NEGLIGIBLE * peak(row))
-                    .collect()
-            })
-            .collect();
-        let bent: Vec<Vec<bool>> = second
-            .iter()
-            .zip(&first)
-            .map(|(block, row)| {
-                let scale = peak(block).max(peak(row));
-                block.iter().map(|&h| h > NEGLIGIBLE * scale).collect()
-            })
-            .collect();
-        let hessian = (0..n)
-            .flat_map(|i| (0..=i).map(move |j| (i, j)))
-            .filter(|&(i, j)| bent.iter().any(|block| block[i * n + j]))
-            .collect();
-        Self {
-            jacobian,
-            hessian,
-            curved: (0..m).filter(|&r| bent[r].contains(&true)).collect(),
-            active: size.iter().map(|&s| s > 0.0).collect(),
-        }
+        seen.pattern()
     }
 
     /// Inputs that any output depends on, ascending.
@@ -104,54 +88,124 @@ impl Sparsity {
     }
 }
 
-/// Adds the magnitudes of all derivatives at `point`; false where one is not finite.
-fn look<F: Function>(
-    f: &F,
-    used: &[bool],
-    point: &[f64],
-    first: &mut [Vec<f64>],
-    second: &mut [Vec<f64>],
-    size: &mut [f64],
-) -> bool {
-    let n = point.len();
-    let mut scratch = f.scratch();
-    let mut out = vec![Look::constant(0.0); f.outputs()];
-    let inputs: Vec<usize> = (0..n).filter(|&i| used[i]).collect();
-    let blocks: Vec<&[usize]> = inputs.chunks(TILE).collect();
-    let mut found = Vec::new();
-    for (b, rows) in blocks.iter().enumerate() {
-        for columns in &blocks[..=b] {
-            let mut seeds: Vec<Look> = point.iter().map(|&p| Look::constant(p)).collect();
-            rows.iter()
-                .enumerate()
-                .for_each(|(lane, &i)| seeds[i].rows[lane] = 1.0);
-            columns
-                .iter()
-                .enumerate()
-                .for_each(|(lane, &j)| seeds[j].columns[lane] = 1.0);
+/// Largest magnitudes met so far.
+struct Seen {
+    inputs: usize,
+    /// Of each output.
+    size: Vec<f64>,
+    /// Of each output by each input.
+    first: Vec<Vec<f64>>,
+    /// Of each output by each pair of inputs, a square by rows.
+    second: Vec<Vec<f64>>,
+}
+
+impl Seen {
+    fn new(inputs: usize, outputs: usize) -> Self {
+        Self {
+            inputs,
+            size: vec![0.0; outputs],
+            first: vec![vec![0.0; inputs]; outputs],
+            second: vec![vec![0.0; inputs * inputs]; outputs],
+        }
+    }
+
+    /// Whether any output depends on input `i`.
+    fn matters(&self, i: usize) -> bool {
+        self.first.iter().any(|row| row[i] > 0.0)
+    }
+
+    /// Adds values and first derivatives at `point`; false where one is not finite.
+    fn first_at<F: Function>(&mut self, f: &F, used: &[bool], point: &[f64]) -> bool {
+        let mut scratch = f.scratch();
+        let mut out = vec![Slope::constant(0.0); f.outputs()];
+        let inputs: Vec<usize> = (0..self.inputs).filter(|&i| used[i]).collect();
+        let mut found = Vec::new();
+        // Without inputs to look at, the values still are.
+        for lanes in inputs
+            .chunks(WIDE)
+            .chain(inputs.is_empty().then_some(&[][..]))
+        {
+            let mut seeds: Vec<Slope> = point.iter().map(|&p| Slope::constant(p)).collect();
+            for (lane, &i) in lanes.iter().enumerate() {
+                seeds[i].gradient[lane] = 1.0;
+            }
             f.evaluate(&seeds, &mut scratch, &mut out);
             for (r, o) in out.iter().enumerate() {
-                for (a, &i) in rows.iter().enumerate() {
-                    for (c, &j) in columns.iter().enumerate() {
-                        found.push((r, i, j, o.rows[a].abs(), o.block[a][c].abs()));
+                found.extend((lanes.iter().zip(o.gradient)).map(|(&i, d)| (r, i, d.abs())));
+            }
+        }
+        let finite =
+            found.iter().all(|(.., d)| d.is_finite()) && out.iter().all(|o| o.value.is_finite());
+        if finite {
+            for (r, i, d) in found {
+                self.first[r][i] = self.first[r][i].max(d);
+            }
+            for (size, o) in self.size.iter_mut().zip(&out) {
+                *size = size.max(o.value.abs());
+            }
+        }
+        finite
+    }
+
+    /// Adds second derivatives by the inputs that matter; false where one is not finite.
+    fn second_at<F: Function>(&mut self, f: &F, matter: &[usize], point: &[f64]) -> bool {
+        let mut scratch = f.scratch();
+        let mut out = vec![Look::constant(0.0); f.outputs()];
+        let blocks: Vec<&[usize]> = matter.chunks(TILE).collect();
+        let mut found = Vec::new();
+        for (b, rows) in blocks.iter().enumerate() {
+            for columns in &blocks[..=b] {
+                let mut seeds: Vec<Look> = point.iter().map(|&p| Look::constant(p)).collect();
+                rows.iter()
+                    .enumerate()
+                    .for_each(|(lane, &i)| seeds[i].rows[lane] = 1.0);
+                columns
+                    .iter()
+                    .enumerate()
+                    .for_each(|(lane, &j)| seeds[j].columns[lane] = 1.0);
+                f.evaluate(&seeds, &mut scratch, &mut out);
+                for (r, o) in out.iter().enumerate() {
+                    for (a, &i) in rows.iter().enumerate() {
+                        for (c, &j) in columns.iter().enumerate() {
+                            found.push((r, i * self.inputs + j, o.block[a][c].abs()));
+                        }
                     }
                 }
             }
         }
+        let finite = found.iter().all(|(.., d)| d.is_finite());
+        if finite {
+            for (r, place, d) in found {
+                self.second[r][place] = self.second[r][place].max(d);
+            }
+        }
+        finite
     }
-    let finite = found
-        .iter()
-        .all(|(.., d, h)| d.is_finite() && h.is_finite())
-        && out.iter().all(|o| o.value.is_finite());
-    if !finite {
-        return false;
+
+    fn pattern(&self) -> Sparsity {
+        let n = self.inputs;
+        let peak = |row: &[f64]| row.iter().copied().fold(0.0, f64::max);
+        let jacobian = self.first.iter().map(|row| {
+            let least = NEGLIGIBLE * peak(row);
+            (0..n).filter(|&i| row[i] > least).collect()
+        });
+        let bent: Vec<Vec<bool>> = (self.second.iter().zip(&self.first))
+            .map(|(block, row)| {
+                let scale = peak(block).max(peak(row));
+                block.iter().map(|&h| h > NEGLIGIBLE * scale).collect()
+            })
+            .collect();
+        let hessian = (0..n)
+            .flat_map(|i| (0..=i).map(move |j| (i, j)))
+            .filter(|&(i, j)| bent.iter().any(|block| block[i * n + j]))
+            .collect();
+        Sparsity {
+            jacobian: jacobian.collect(),
+            hessian,
+            curved: (0..bent.len())
+                .filter(|&r| bent[r].contains(&true))
+                .collect(),
+            active: self.size.iter().map(|&s| s > 0.0).collect(),
+        }
     }
-    for (r, i, j, gradient, curvature) in found {
-        first[r][i] = first[r][i].max(gradient);
-        second[r][i * n + j] = second[r][i * n + j].max(curvature);
-    }
-    for (s, o) in size.iter_mut().zip(&out) {
-        *s = s.max(o.value.abs());
-    }
-    true
 }
