@@ -5,12 +5,10 @@
 //! and solved by both in turns; printed are medians over the repetitions, averaged over the
 //! systems. MUMPS is set up as Ipopt sets it up, with the ordering that is its best here.
 
-#[path = "../tests/problems/mod.rs"]
-mod problems;
-
+use ffsm_ipopt::config::ProblemFile;
 use ffsm_ipopt::nlp::ipopt::{System, record};
 use ffsm_ipopt::nlp::kkt::{Factors, Symbolic};
-use ffsm_ipopt::planner::{Planner, Problem};
+use ffsm_ipopt::planner::Planner;
 use libloading::{Library, Symbol};
 use std::ffi::{c_int, c_void};
 use std::hint::black_box;
@@ -216,7 +214,8 @@ fn main() {
     // SAFETY: the shim has no initialisers of its own.
     let library = shim.map(|path| unsafe { Library::new(path) }.expect("the shim loads"));
     println!(
-        "{:>8} {:>8} {:>8}  {:>6} {:>12} {:>11} {:>10} {:>10}",
+        "{:>8} {:>6} {:>8} {:>8}  {:>6} {:>12} {:>11} {:>10} {:>10}",
+        "robot",
         "mesh",
         "unknowns",
         "systems",
@@ -226,8 +225,14 @@ fn main() {
         "solve / µs",
         "residual"
     );
-    for [segments, points] in [[10, 5], [50, 4], [200, 4]] {
-        let mut problem: Problem = problems::relaxed();
+    let shipped = |name| ProblemFile::shipped(name).expect("a problem").problem;
+    let cases = [
+        ("two-link", shipped("table1-relaxed"), [10, 5]),
+        ("two-link", shipped("table1-relaxed"), [50, 4]),
+        ("two-link", shipped("table1-relaxed"), [200, 4]),
+        ("chaser", shipped("chaser-7dof"), [10, 5]),
+    ];
+    for (robot, mut problem, [segments, points]) in cases {
         problem.mesh.segments = segments;
         problem.mesh.points = points;
         problem.mesh.max_iterations = 1;
@@ -238,7 +243,8 @@ fn main() {
         for (name, times) in ["ours", "MUMPS"].into_iter().zip(&both) {
             let Some(times) = times else { continue };
             println!(
-                "{:>8} {:>8} {:>8}  {:>6} {:>12.0} {:>11.1} {:>10.1} {:>10.1e}",
+                "{:>8} {:>6} {:>8} {:>8}  {:>6} {:>12.0} {:>11.1} {:>10.1} {:>10.1e}",
+                robot,
                 format!("{segments}×{points}"),
                 systems[0].symbolic.len(),
                 systems.len(),
@@ -252,8 +258,9 @@ fn main() {
         if let Some(ours) = &both[0] {
             let symbolic = &systems[0].symbolic;
             println!(
-                "{:>8} {} fronts, {} numbers in the factors, {:.2} Mflop: {:.2} Gflop/s",
+                "{:>8} {} entries, {} fronts, {} numbers in the factors, {:.2} Mflop: {:.2} Gflop/s",
                 "",
+                symbolic.pattern().nonzeros(),
                 symbolic.fronts(),
                 symbolic.factor_size(),
                 2e-6 * symbolic.multiplications(),

@@ -13,7 +13,7 @@ pub(super) struct Merged {
 }
 
 /// Estimated time of a front of `c` pivots and `b` other rows, in units of a vector operation.
-fn cost(c: usize, b: usize) -> f64 {
+pub(super) fn cost(c: usize, b: usize) -> f64 {
     let rows = (padded(c) + padded(b)) as f64 / 4.0;
     let (c, b) = (c as f64, b as f64);
     let panel = c * c / 2.0 * rows;

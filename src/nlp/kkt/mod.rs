@@ -6,6 +6,8 @@
 //! where none is large enough, so that the inertia is that of the matrix.
 
 mod amalgamation;
+mod dissection;
+mod division;
 mod factor;
 mod graph;
 mod lanes;
@@ -13,6 +15,7 @@ mod noise;
 mod ordering;
 mod pairs;
 mod panel;
+mod part;
 mod pattern;
 mod solve;
 mod symbolic;

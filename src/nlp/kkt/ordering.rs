@@ -20,21 +20,19 @@ pub(super) struct RawFront {
     pub parent: Option<usize>,
 }
 
-/// Nodes with more neighbours than this are ordered last and kept out of the quotient graph.
-fn dense_from(nodes: usize) -> usize {
-    ((10.0 * (nodes as f64).sqrt()) as usize).max(16)
+/// Which nodes have so many neighbours that they are ordered last, out of the quotient graph.
+pub(super) fn dense(graph: &Graph) -> Vec<bool> {
+    let limit = ((10.0 * (graph.len() as f64).sqrt()) as usize).max(16);
+    (0..graph.len())
+        .map(|node| graph.neighbours(node).len() > limit)
+        .collect()
 }
 
 /// Fronts of `graph` in elimination order, parents after children.
 ///
-/// Nodes of a lower `group` are eliminated before those of a higher one.
-pub(super) fn fronts(graph: &Graph, group: &[u8]) -> Vec<RawFront> {
-    let nodes = graph.len();
-    let limit = dense_from(nodes);
-    let dense: Vec<bool> = (0..nodes)
-        .map(|node| graph.neighbours(node).len() > limit)
-        .collect();
-    let mut quotient = Quotient::new(graph, group, &dense);
+/// Nodes of a lower `group` are eliminated before those of a higher one, `dense` ones last of all.
+pub(super) fn fronts(graph: &Graph, group: &[u8], dense: &[bool]) -> Vec<RawFront> {
+    let mut quotient = Quotient::new(graph, group, dense);
     let groups = group.iter().copied().max().unwrap_or(0);
     for group in 0..=groups {
         while let Some(pivot) = quotient.least(group) {
@@ -43,7 +41,7 @@ pub(super) fn fronts(graph: &Graph, group: &[u8]) -> Vec<RawFront> {
     }
     let mut fronts = quotient.fronts;
     if dense.contains(&true) {
-        append_dense(graph, &dense, &mut fronts);
+        append_dense(graph, dense, &mut fronts);
     }
     fronts
 }

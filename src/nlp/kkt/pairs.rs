@@ -54,7 +54,7 @@ pub(super) fn partners(pattern: &Pattern) -> Vec<u32> {
 /// Start of the longest run of last unknowns that are not connected with each other.
 ///
 /// In the systems of an interior-point method these are the multipliers, which come last.
-fn first_multiplier(pattern: &Pattern) -> usize {
+pub(super) fn first_multiplier(pattern: &Pattern) -> usize {
     let links = pattern.entries().filter(|(row, column)| row != column);
     links.map(|(_, column)| column + 1).max().unwrap_or(0)
 }

@@ -10,7 +10,7 @@
 
 use super::lanes::{LANES, Vector};
 use super::noise::Noise;
-use super::update::{axpy, axpy2, largest, subtract};
+use super::update::{axpy, axpy_largest, axpy2, axpy2_largest, largest, subtract};
 
 /// Pivots are first looked for with this much of their columns' largest entry.
 const PREFERRED: f64 = 1e-4;
@@ -49,6 +49,8 @@ pub(super) struct Panel<'a> {
     /// Least part of its column's largest entry a pivot may be.
     pub threshold: f64,
     pub noise: Noise<'a>,
+    /// Largest entry of the column to be tried next, its diagonal included, where it is known.
+    pub next: Option<f64>,
 }
 
 /// A pivot found.
@@ -195,12 +197,15 @@ impl Panel<'_> {
     fn find<V: Vector>(&mut self, k: usize, end: usize, threshold: f64) -> Option<Pivot> {
         let ld = self.ld;
         let from = k / LANES * LANES;
+        let mut known = self.next.take();
         for t in k..end {
-            let column = &mut self.a[t * ld..(t + 1) * ld];
-            let d = std::mem::take(&mut column[t]);
-            let most = largest::<V>(&column[from..]);
-            column[t] = d;
-            if self.noise.is(self.unknowns[t], d.abs().max(most)) {
+            let column = &self.a[t * ld..(t + 1) * ld];
+            let d = column[t];
+            // The diagonal may count: a threshold is never above one.
+            let most = known
+                .take()
+                .unwrap_or_else(|| largest::<V>(&column[from..]));
+            if self.noise.is(self.unknowns[t], most) {
                 return Some(Pivot::Zero(t));
             }
             if d.abs() > SMALL && d.abs() >= threshold * most {
@@ -223,7 +228,7 @@ impl Panel<'_> {
 
     /// Whether columns `t` and `r` make a pivot of order two.
     #[inline(always)]
-    fn is_pair<V: Vector>(&mut self, t: usize, r: usize, from: usize, threshold: f64) -> bool {
+    fn is_pair<V: Vector>(&self, t: usize, r: usize, from: usize, threshold: f64) -> bool {
         let ld = self.ld;
         let (a, b, c) = (self.a[t * ld + t], self.a[t * ld + r], self.a[r * ld + r]);
         let scale = 1.0 / a.abs().max(b.abs()).max(c.abs());
@@ -239,17 +244,25 @@ impl Panel<'_> {
         threshold * growth_t.max(growth_r) <= determinant
     }
 
-    /// Largest entry of a column but for those of two rows.
+    /// Largest entry of a column from row `from` on but for those of two rows.
     #[inline(always)]
-    fn without<V: Vector>(&mut self, column: usize, rows: [usize; 2], from: usize) -> f64 {
-        let column = &mut self.a[column * self.ld..(column + 1) * self.ld];
-        let taken = rows.map(|row| column[row]);
-        for row in rows {
-            column[row] = 0.0;
+    fn without<V: Vector>(&self, column: usize, rows: [usize; 2], from: usize) -> f64 {
+        let column = &self.a[column * self.ld + from..(column + 1) * self.ld];
+        let [first, second] = [rows[0].min(rows[1]) - from, rows[0].max(rows[1]) - from];
+        let [one, two] = [first / LANES, second / LANES];
+        let (chunks, _) = column.as_chunks::<LANES>();
+        let mut most = largest::<V>(&column[..one * LANES]);
+        most = most.max(largest::<V>(&column[(two + 1) * LANES..]));
+        if one < two {
+            most = most.max(largest::<V>(&column[(one + 1) * LANES..two * LANES]));
         }
-        let most = largest::<V>(&column[from..]);
-        for (row, value) in rows.into_iter().zip(taken) {
-            column[row] = value;
+        for chunk in [one, two] {
+            for (lane, value) in chunks[chunk].iter().enumerate() {
+                let row = chunk * LANES + lane;
+                if row != first && row != second {
+                    most = most.max(value.abs());
+                }
+            }
         }
         most
     }
@@ -280,7 +293,14 @@ impl Panel<'_> {
         let inverse = 1.0 / pivot[k];
         self.inverse[k] = [inverse, 0.0];
         pivot[k] = 0.0;
-        for (j, column) in (k + 1..end).zip(right.chunks_exact_mut(ld)) {
+        let mut columns = (k + 1..end).zip(right.chunks_exact_mut(ld));
+        if let Some((j, column)) = columns.next() {
+            let factor = pivot[j] * inverse;
+            column[k] = 0.0;
+            let column = &mut column[from..];
+            self.next = Some(axpy_largest::<V>(factor, &pivot[from..], column));
+        }
+        for (j, column) in columns {
             let factor = pivot[j] * inverse;
             axpy::<V>(factor, &pivot[from..], &mut column[from..]);
             column[k] = 0.0;
@@ -313,12 +333,27 @@ impl Panel<'_> {
             column[k] = 0.0;
             column[k + 1] = 0.0;
         }
-        for (j, column) in (k + 2..end).zip(right.chunks_exact_mut(ld)) {
-            let (x, y) = (first[j], second[j]);
-            let factors = [
+        let factors = |x: f64, y: f64| {
+            [
                 inverse[0] * x + inverse[1] * y,
                 inverse[1] * x + inverse[2] * y,
-            ];
+            ]
+        };
+        let mut columns = (k + 2..end).zip(right.chunks_exact_mut(ld));
+        if let Some((j, column)) = columns.next() {
+            let factors = factors(first[j], second[j]);
+            column[k] = 0.0;
+            column[k + 1] = 0.0;
+            let column = &mut column[from..];
+            self.next = Some(axpy2_largest::<V>(
+                factors,
+                &first[from..],
+                &second[from..],
+                column,
+            ));
+        }
+        for (j, column) in columns {
+            let factors = factors(first[j], second[j]);
             axpy2::<V>(
                 factors,
                 &first[from..],

@@ -4,8 +4,9 @@ use super::factor::Factors;
 #[cfg(target_arch = "x86_64")]
 use super::lanes::Avx2;
 use super::lanes::{LANES, Plain, Vector};
-use super::symbolic::{Symbolic, padded};
-use super::update::{axpy, dot};
+use super::part::{Part, Place};
+use super::symbolic::{Front, Symbolic, padded};
+use super::update::{axpy, axpy4, dot, dot4};
 
 impl Factors {
     /// Overwrites the right-hand side `x` by the solution.
@@ -36,63 +37,128 @@ impl Factors {
 
     #[inline(always)]
     fn solve_with<V: Vector>(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
-        for (front, place) in symbolic.fronts.iter().zip(&self.places) {
-            let pivots = padded(place.columns);
-            let ld = pivots + padded(front.border);
-            let unknowns = &self.unknowns[place.pivots..place.pivots + place.columns];
-            let inverse = &self.inverse[place.pivots..place.pivots + place.columns];
-            let y = &mut self.vector[..ld];
-            y.fill(0.0);
-            for (y, &unknown) in y.iter_mut().zip(unknowns) {
-                *y = x[unknown as usize];
-            }
-            let panel = &self.panels[place.panel..place.panel + ld * place.eliminated];
-            for (k, column) in panel.chunks_exact(ld).enumerate() {
-                let from = k / LANES * LANES;
-                axpy::<V>(y[k], &column[from..], &mut y[from..]);
-            }
-            let mut k = 0;
-            while k < place.eliminated {
-                let [d, link] = inverse[k];
-                if link == 0.0 {
-                    x[unknowns[k] as usize] = d * y[k];
-                    k += 1;
-                } else {
-                    let e = inverse[k + 1][0];
-                    x[unknowns[k] as usize] = d * y[k] + link * y[k + 1];
-                    x[unknowns[k + 1] as usize] = link * y[k] + e * y[k + 1];
-                    k += 2;
-                }
-            }
-            for k in place.eliminated..place.columns {
-                x[unknowns[k] as usize] = y[k];
-            }
-            let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
-            for (&unknown, y) in border.iter().zip(&y[pivots..]) {
-                x[unknown as usize] += y;
+        let Self { parts, vector } = self;
+        for (part, size) in parts.iter().zip(&symbolic.parts) {
+            for (front, place) in symbolic.fronts[size.fronts.clone()]
+                .iter()
+                .zip(&part.places)
+            {
+                forward::<V>(symbolic, part, front, place, vector, x);
             }
         }
-        for (front, place) in symbolic.fronts.iter().zip(&self.places).rev() {
-            let pivots = padded(place.columns);
-            let ld = pivots + padded(front.border);
-            let unknowns = &self.unknowns[place.pivots..place.pivots + place.columns];
-            let y = &mut self.vector[..ld];
-            y.fill(0.0);
-            for (y, &unknown) in y.iter_mut().zip(unknowns) {
-                *y = x[unknown as usize];
-            }
-            let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
-            for (y, &unknown) in y[pivots..].iter_mut().zip(border) {
-                *y = x[unknown as usize];
-            }
-            let panel = &self.panels[place.panel..place.panel + ld * place.eliminated];
-            for (k, column) in panel.chunks_exact(ld).enumerate().rev() {
-                let from = k / LANES * LANES;
-                y[k] -= dot::<V>(&column[from..], &y[from..]);
-            }
-            for (y, &unknown) in y.iter().zip(&unknowns[..place.eliminated]) {
-                x[unknown as usize] = *y;
+        for (part, size) in parts.iter().zip(&symbolic.parts).rev() {
+            let fronts = symbolic.fronts[size.fronts.clone()].iter();
+            for (front, place) in fronts.zip(&part.places).rev() {
+                backward::<V>(symbolic, part, front, place, vector, x);
             }
         }
     }
+}
+
+/// Eliminates a front's unknowns from the right-hand side, and divides by its pivots.
+#[inline(always)]
+fn forward<V: Vector>(
+    symbolic: &Symbolic,
+    part: &Part,
+    front: &Front,
+    place: &Place,
+    vector: &mut [f64],
+    x: &mut [f64],
+) {
+    let pivots = padded(place.columns);
+    let ld = pivots + padded(front.border);
+    let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
+    let inverse = &part.inverse[place.pivots..place.pivots + place.columns];
+    let y = &mut vector[..ld];
+    y.fill(0.0);
+    for (y, &unknown) in y.iter_mut().zip(unknowns) {
+        *y = x[unknown as usize];
+    }
+    let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
+    let (own, below) = y.split_at_mut(pivots);
+    for (k, column) in panel.chunks_exact(ld).enumerate() {
+        let from = k / LANES * LANES;
+        axpy::<V>(own[k], &column[from..pivots], &mut own[from..]);
+    }
+    // The border takes several columns at a time, which spares it loads and stores.
+    let mut columns = panel.chunks_exact(4 * ld.max(1));
+    let (factors, _) = own.as_chunks::<4>();
+    for (four, factors) in columns.by_ref().zip(factors) {
+        axpy4::<V>(factors, borders(four, ld, pivots), below);
+    }
+    let done = place.eliminated / 4 * 4;
+    for (column, &factor) in columns.remainder().chunks_exact(ld).zip(&own[done..]) {
+        axpy::<V>(factor, &column[pivots..], below);
+    }
+    let mut k = 0;
+    while k < place.eliminated {
+        let [d, link] = inverse[k];
+        if link == 0.0 {
+            x[unknowns[k] as usize] = d * y[k];
+            k += 1;
+        } else {
+            let e = inverse[k + 1][0];
+            x[unknowns[k] as usize] = d * y[k] + link * y[k + 1];
+            x[unknowns[k + 1] as usize] = link * y[k] + e * y[k + 1];
+            k += 2;
+        }
+    }
+    for k in place.eliminated..place.columns {
+        x[unknowns[k] as usize] = y[k];
+    }
+    let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
+    for (&unknown, y) in border.iter().zip(&y[pivots..]) {
+        x[unknown as usize] += y;
+    }
+}
+
+/// A front's unknowns from those of its border.
+#[inline(always)]
+fn backward<V: Vector>(
+    symbolic: &Symbolic,
+    part: &Part,
+    front: &Front,
+    place: &Place,
+    vector: &mut [f64],
+    x: &mut [f64],
+) {
+    let pivots = padded(place.columns);
+    let ld = pivots + padded(front.border);
+    let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
+    let y = &mut vector[..ld];
+    y.fill(0.0);
+    for (y, &unknown) in y.iter_mut().zip(unknowns) {
+        *y = x[unknown as usize];
+    }
+    let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
+    for (y, &unknown) in y[pivots..].iter_mut().zip(border) {
+        *y = x[unknown as usize];
+    }
+    let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
+    let (own, below) = y.split_at_mut(pivots);
+    let mut columns = panel.chunks_exact(4 * ld.max(1));
+    let (sums, _) = own.as_chunks_mut::<4>();
+    for (four, sums) in columns.by_ref().zip(sums) {
+        let dots = dot4::<V>(borders(four, ld, pivots), below);
+        for (sum, dot) in sums.iter_mut().zip(dots) {
+            *sum -= dot;
+        }
+    }
+    let done = place.eliminated / 4 * 4;
+    for (column, sum) in (columns.remainder().chunks_exact(ld)).zip(&mut own[done..]) {
+        *sum -= dot::<V>(&column[pivots..], below);
+    }
+    for (k, column) in panel.chunks_exact(ld).enumerate().rev() {
+        let from = k / LANES * LANES;
+        own[k] -= dot::<V>(&column[from..pivots], &own[from..]);
+    }
+    for (y, &unknown) in own.iter().zip(&unknowns[..place.eliminated]) {
+        x[unknown as usize] = *y;
+    }
+}
+
+/// The border's rows of four columns.
+#[inline(always)]
+fn borders(four: &[f64], ld: usize, pivots: usize) -> [&[f64]; 4] {
+    std::array::from_fn(|i| &four[i * ld + pivots..(i + 1) * ld])
 }

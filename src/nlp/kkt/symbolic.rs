@@ -3,7 +3,7 @@
 use super::amalgamation::{self, Merged};
 use super::graph::Graph;
 use super::lanes::LANES;
-use super::{Pattern, ordering, pairs};
+use super::{Pattern, dissection, division, ordering, pairs};
 use std::ops::Range;
 
 /// Rows padded to whole vectors.
@@ -30,6 +30,19 @@ pub(super) struct Front {
     pub is_root: bool,
 }
 
+/// What a part of the tree needs.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PartSize {
+    pub fronts: Range<usize>,
+    /// Length of each arena of contributions.
+    pub arenas: [usize; 2],
+    /// Length of all panels without delayed pivots.
+    pub panels: usize,
+    pub pivots: usize,
+    /// Most rows of a front, and most pivots, padded.
+    pub largest: [usize; 2],
+}
+
 /// Analysis of a pattern: made once, used for every matrix that has it.
 #[derive(Debug)]
 pub struct Symbolic {
@@ -41,12 +54,8 @@ pub struct Symbolic {
     /// Local rows of the parent, padding of its pivots left out.
     pub(super) relative: Vec<u32>,
     pub(super) children: Vec<u32>,
-    /// Length of each arena of contributions.
-    pub(super) arenas: [usize; 2],
-    /// Length of all panels without delayed pivots.
-    pub(super) panels: usize,
-    /// Most rows of a front, and most pivots, padded.
-    pub(super) largest: [usize; 2],
+    /// Those that can be worked on at the same time, then the one that waits for them.
+    pub(super) parts: Vec<PartSize>,
     flops: f64,
 }
 
@@ -58,13 +67,15 @@ impl Symbolic {
     pub fn new(pattern: Pattern) -> Self {
         let partner = pairs::partners(&pattern);
         let graph = Graph::new(&pattern, &partner);
-        let group = vec![0; graph.len()];
-        let fronts = ordering::fronts(&graph, &group);
+        let dense = ordering::dense(&graph);
+        let (rounds, stretches) = dissection::rounds(&pattern, &graph, &dense);
+        let fronts = ordering::fronts(&graph, &rounds, &dense);
         let merged = amalgamation::merge(&graph, &fronts);
-        Self::build(pattern, &merged)
+        let (merged, parts) = division::divide(merged, stretches);
+        Self::build(pattern, &merged, &parts)
     }
 
-    fn build(pattern: Pattern, merged: &[Merged]) -> Self {
+    fn build(pattern: Pattern, merged: &[Merged], parts: &[Range<usize>]) -> Self {
         let n = pattern.len();
         let mut position = vec![0_u32; n];
         let mut front_of = vec![0_u32; n];
@@ -82,16 +93,18 @@ impl Symbolic {
             entries: Vec::new(),
             relative: Vec::new(),
             children: Vec::new(),
-            arenas: [0; 2],
-            panels: 0,
-            largest: [0; 2],
+            parts: Vec::with_capacity(parts.len()),
             flops: 0.0,
             pattern,
         };
         symbolic.lay_out(merged, &position);
         symbolic.place_entries(&position, &front_of);
         symbolic.place_relative(merged);
-        symbolic.place_contributions(merged);
+        symbolic.place_arenas(merged);
+        for fronts in parts {
+            let part = symbolic.measure(fronts.clone());
+            symbolic.parts.push(part);
+        }
         symbolic
     }
 
@@ -120,9 +133,6 @@ impl Symbolic {
                 contribution: 0,
                 is_root: front.parent.is_none(),
             });
-            self.panels += (padded(c) + padded(b)) * c;
-            self.largest[0] = self.largest[0].max(padded(c) + padded(b));
-            self.largest[1] = self.largest[1].max(padded(c));
             let (c, b) = (c as f64, b as f64);
             self.flops += c * (c * c / 3.0 + c * b + b * b);
         }
@@ -204,27 +214,48 @@ impl Symbolic {
         }
     }
 
-    /// Where contributions stand: children in the other arena than their parent.
-    fn place_contributions(&mut self, merged: &[Merged]) {
+    /// Which arena contributions stand in: children in the other one than their parent.
+    fn place_arenas(&mut self, merged: &[Merged]) {
         for index in (0..self.fronts.len()).rev() {
             self.fronts[index].arena = match merged[index].parent {
                 Some(parent) => 1 - self.fronts[parent].arena,
                 None => 0,
             };
         }
+    }
+
+    /// Where the contributions of a part's fronts stand, and what memory it needs.
+    fn measure(&mut self, fronts: Range<usize>) -> PartSize {
+        let mut part = PartSize {
+            fronts: fronts.clone(),
+            ..PartSize::default()
+        };
         let mut arenas = [Arena::default(), Arena::default()];
-        for index in 0..self.fronts.len() {
-            let front = &self.fronts[index];
-            let length = padded(front.border) * padded(front.border);
-            let (arena, children) = (front.arena, front.children.clone());
-            self.fronts[index].contribution = arenas[arena].take(length);
-            for child in children {
-                let child = &self.fronts[self.children[child] as usize];
-                let length = padded(child.border) * padded(child.border);
-                arenas[child.arena].give_back(child.contribution, length);
+        for index in fronts.clone() {
+            let front = &mut self.fronts[index];
+            let (pivots, border) = (padded(front.pivots), padded(front.border));
+            front.contribution = arenas[front.arena].take(border * border);
+            part.pivots += front.pivots;
+            part.panels += (pivots + border) * front.pivots;
+            part.largest[0] = part.largest[0].max(pivots + border);
+            part.largest[1] = part.largest[1].max(pivots);
+            for child in self.fronts[index].children.clone() {
+                let child = self.children[child] as usize;
+                // That of another part stays where it is.
+                if fronts.contains(&child) {
+                    let child = &self.fronts[child];
+                    let length = padded(child.border) * padded(child.border);
+                    arenas[child.arena].give_back(child.contribution, length);
+                }
             }
         }
-        self.arenas = arenas.map(|arena| arena.end);
+        part.arenas = arenas.map(|arena| arena.end);
+        part
+    }
+
+    /// The part a front belongs to.
+    pub(super) fn part_of(&self, front: usize) -> usize {
+        self.parts.partition_point(|part| part.fronts.end <= front)
     }
 
     /// Order of the matrix.
@@ -249,7 +280,12 @@ impl Symbolic {
 
     /// Numbers kept for the factors, padding included, if no pivot is delayed.
     pub fn factor_size(&self) -> usize {
-        self.panels
+        self.parts.iter().map(|part| part.panels).sum()
+    }
+
+    /// Stretches of the matrix that are factorised at the same time where threads are free.
+    pub fn concurrency(&self) -> usize {
+        (self.parts.len() - 1).max(1)
     }
 
     /// Multiplications of one factorisation, if no pivot is delayed.

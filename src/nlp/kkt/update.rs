@@ -98,6 +98,43 @@ pub(super) fn axpy<V: Vector>(factor: f64, x: &[f64], y: &mut [f64]) {
     }
 }
 
+/// y −= factor·x, of whole vectors; the largest magnitude that y then has.
+#[inline(always)]
+pub(super) fn axpy_largest<V: Vector>(factor: f64, x: &[f64], y: &mut [f64]) -> f64 {
+    let factor = V::splat(-factor);
+    let (x, _) = x.as_chunks::<LANES>();
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    let mut most = V::splat(0.0);
+    for (x, y) in x.iter().zip(y) {
+        let sum = factor.times_plus(V::load(x), V::load(y));
+        sum.store(y);
+        most = most.most(sum);
+    }
+    most.largest()
+}
+
+/// y −= factors·(x₁, x₂), of whole vectors; the largest magnitude that y then has.
+#[inline(always)]
+pub(super) fn axpy2_largest<V: Vector>(
+    factors: [f64; 2],
+    x1: &[f64],
+    x2: &[f64],
+    y: &mut [f64],
+) -> f64 {
+    let factors = [V::splat(-factors[0]), V::splat(-factors[1])];
+    let (x1, _) = x1.as_chunks::<LANES>();
+    let (x2, _) = x2.as_chunks::<LANES>();
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    let mut most = V::splat(0.0);
+    for ((x1, x2), y) in x1.iter().zip(x2).zip(y) {
+        let one = factors[0].times_plus(V::load(x1), V::load(y));
+        let sum = factors[1].times_plus(V::load(x2), one);
+        sum.store(y);
+        most = most.most(sum);
+    }
+    most.largest()
+}
+
 /// y −= factors·(x₁, x₂), of whole vectors.
 #[inline(always)]
 pub(super) fn axpy2<V: Vector>(factors: [f64; 2], x1: &[f64], x2: &[f64], y: &mut [f64]) {
@@ -109,6 +146,38 @@ pub(super) fn axpy2<V: Vector>(factors: [f64; 2], x1: &[f64], x2: &[f64], y: &mu
         let one = factors[0].times_plus(V::load(x1), V::load(y));
         factors[1].times_plus(V::load(x2), one).store(y);
     }
+}
+
+/// y −= Σ factorsᵢ·xᵢ, of whole vectors.
+#[inline(always)]
+pub(super) fn axpy4<V: Vector>(factors: &[f64; 4], x: [&[f64]; 4], y: &mut [f64]) {
+    let factors = factors.map(|factor| V::splat(-factor));
+    let [x0, x1, x2, x3] = x.map(|x| x.as_chunks::<LANES>().0);
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    let columns = x0.iter().zip(x1).zip(x2.iter().zip(x3));
+    for (((x0, x1), (x2, x3)), y) in columns.zip(y) {
+        let one = factors[0].times_plus(V::load(x0), V::load(y));
+        let two = factors[1].times_plus(V::load(x1), one);
+        let three = factors[2].times_plus(V::load(x2), two);
+        factors[3].times_plus(V::load(x3), three).store(y);
+    }
+}
+
+/// xᵢᵀy, of whole vectors.
+#[inline(always)]
+pub(super) fn dot4<V: Vector>(x: [&[f64]; 4], y: &[f64]) -> [f64; 4] {
+    let [x0, x1, x2, x3] = x.map(|x| x.as_chunks::<LANES>().0);
+    let (y, _) = y.as_chunks::<LANES>();
+    let mut sum = [V::splat(0.0); 4];
+    let columns = x0.iter().zip(x1).zip(x2.iter().zip(x3));
+    for (((x0, x1), (x2, x3)), y) in columns.zip(y) {
+        let y = V::load(y);
+        sum[0] = V::load(x0).times_plus(y, sum[0]);
+        sum[1] = V::load(x1).times_plus(y, sum[1]);
+        sum[2] = V::load(x2).times_plus(y, sum[2]);
+        sum[3] = V::load(x3).times_plus(y, sum[3]);
+    }
+    sum.map(V::sum)
 }
 
 /// xᵀy, of whole vectors.
@@ -131,19 +200,24 @@ pub(super) fn dot<V: Vector>(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// Largest magnitude of any numbers; `None` where one is not finite.
-#[inline(always)]
-pub(super) fn largest_finite<V: Vector>(values: &[f64]) -> Option<f64> {
-    let (chunks, rest) = values.as_chunks::<LANES>();
-    let zero = V::splat(0.0);
-    let (mut most, mut check) = (zero, zero);
+pub(super) fn largest_finite(values: &[f64]) -> Option<f64> {
+    // Several at a time; a product with zero is zero for finite numbers alone.
+    let (chunks, rest) = values.as_chunks::<8>();
+    let (mut most, mut check) = ([0.0_f64; 8], [0.0_f64; 8]);
     for values in chunks {
-        let values = V::load(values);
-        most = most.most(values);
-        check = values.times_plus(zero, check);
+        for ((most, check), value) in most.iter_mut().zip(&mut check).zip(values) {
+            *most = if value.abs() > *most {
+                value.abs()
+            } else {
+                *most
+            };
+            *check += value * 0.0;
+        }
     }
-    let rest_most = rest
+    let finite = check.iter().sum::<f64>() == 0.0 && rest.iter().all(|value| value.is_finite());
+    let most = most
         .iter()
-        .fold(0.0, |most: f64, value| most.max(value.abs()));
-    let finite = check.sum() == 0.0 && rest.iter().all(|value| value.is_finite());
-    finite.then(|| most.largest().max(rest_most))
+        .chain(rest)
+        .fold(0.0, |most: f64, v| most.max(v.abs()));
+    finite.then_some(most)
 }
