@@ -2,7 +2,7 @@
 
 use crate::config::ConfigError;
 use crate::nlp::Control;
-use crate::planner::{Event, Plan, PlanError, Planner, Problem, Status};
+use crate::planner::{Event, Method, Plan, PlanError, Planner, Problem, Status};
 use crate::refine::Start;
 use crate::report::OutputError;
 use rustix::time::{ClockId, clock_gettime};
@@ -93,11 +93,41 @@ impl<'m> Session<'m> {
         problem: &Problem,
         start: Option<&Start>,
     ) -> Result<Run, ReproductionError> {
-        self.begin(title)?;
         let began = processor_seconds();
+        let method = Method::Collocation(problem.mesh.method);
+        let plan = self.make(method, title, problem, start)?;
+        Ok(Run {
+            plan,
+            cpu_seconds: processor_seconds() - began,
+        })
+    }
+
+    /// Plans `problem` with a fresh planner by any method.
+    ///
+    /// # Errors
+    /// Those of [`Self::plan`].
+    pub fn plan_by(
+        &mut self,
+        method: Method,
+        title: &str,
+        problem: &Problem,
+    ) -> Result<Plan, ReproductionError> {
+        self.make(method, title, problem, None)
+    }
+
+    fn make(
+        &mut self,
+        method: Method,
+        title: &str,
+        problem: &Problem,
+        start: Option<&Start>,
+    ) -> Result<Plan, ReproductionError> {
+        self.begin(title)?;
         let monitor = &mut *self.monitor;
         let plan = Planner::new()
-            .plan_with(problem, start, &mut |event| monitor(Step::Event(event)))
+            .plan_by(method, problem, start, &mut |event| {
+                monitor(Step::Event(event))
+            })
             .map_err(|source| ReproductionError::Plan {
                 title: title.into(),
                 source,
@@ -105,10 +135,7 @@ impl<'m> Session<'m> {
         if plan.status == Status::Interrupted {
             return Err(ReproductionError::Interrupted);
         }
-        Ok(Run {
-            plan,
-            cpu_seconds: processor_seconds() - began,
-        })
+        Ok(plan)
     }
 }
 

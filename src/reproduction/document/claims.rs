@@ -351,10 +351,9 @@ fn table(found: &Findings) -> Vec<Claim> {
 /// Section IV.B, as far as a plan can speak to it.
 fn experiment(found: &Findings) -> Vec<Claim> {
     let end = |case: &Case| Motion::new(case).map(|mut motion| [motion.at(0.0), motion.at(1.0)]);
-    let [Some([start, matpm]), Some([_, relaxed])] = [
-        found.plans.matpm.as_ref().and_then(end),
-        end(&found.plans.cases[0]),
-    ] else {
+    let [Some([start, matpm]), Some([_, relaxed])] =
+        [end(&found.plans.matpm), end(&found.plans.cases[0])]
+    else {
         return Vec::new();
     };
     let moved = [0, 1].map(|i| 100.0 * (matpm.position[i] - start.position[i]).abs());

@@ -6,21 +6,19 @@
 
 mod comparison;
 mod errors;
-mod matpm;
 mod motion;
 mod sequence;
 mod states;
 
 pub use comparison::comparison;
 pub use errors::errors;
-pub use matpm::matpm;
 pub use motion::{Motion, Sample};
 pub use sequence::sequence;
 pub use states::states;
 
 use super::{CASES, ReproductionError, Session};
 use crate::config::ProblemFile;
-use crate::planner::{Plan, Problem};
+use crate::planner::{Method, Plan, Problem};
 use crate::plot::Figure;
 use crate::refine::Record;
 use crate::transcription::Discretization;
@@ -55,8 +53,8 @@ impl Case {
 pub struct Plans {
     /// A-RPM on the relaxed and on the smooth case.
     pub cases: Vec<Case>,
-    /// MATPM on the relaxed case; only for planar arms.
-    pub matpm: Option<Case>,
+    /// MATPM on the relaxed case.
+    pub matpm: Case,
 }
 
 impl Plans {
@@ -71,7 +69,9 @@ impl Plans {
             let plan = session.plan(file, &problem, None)?.plan;
             cases.push(Case::new(file.trim_start_matches("table1-"), problem, plan));
         }
-        let matpm = matpm(&cases[0].problem);
+        let problem = cases[0].problem.clone();
+        let plan = session.plan_by(Method::Matpm, "matpm", &problem)?;
+        let matpm = Case::new("matpm", problem, plan);
         Ok(Self { cases, matpm })
     }
 }
@@ -131,17 +131,18 @@ pub fn all(plans: &Plans, bounded: &Case) -> Vec<Drawn> {
             sequence(case, "A-RPM"),
         );
     }
-    let mut compared = vec![("A-RPM, relaxed", relaxed), ("A-RPM, bounded", bounded)];
-    if let Some(matpm) = &plans.matpm {
-        add(
-            "figure5".into(),
-            "Figure 5: motion sequence under MATPM, to scale. The dashed outline is the base at \
-             the start."
-                .into(),
-            sequence(matpm, "MATPM"),
-        );
-        compared.push(("MATPM", matpm));
-    }
+    add(
+        "figure5".into(),
+        "Figure 5: motion sequence under MATPM, to scale. The dashed outline is the base at the \
+         start."
+            .into(),
+        sequence(&plans.matpm, "MATPM"),
+    );
+    let compared = [
+        ("A-RPM, relaxed", relaxed),
+        ("A-RPM, bounded", bounded),
+        ("MATPM", &plans.matpm),
+    ];
     add(
         "figure6".into(),
         "Figure 6: (a) attitude and (b) displacement of the base, (c) joint angles, as planned. \
