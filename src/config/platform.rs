@@ -1,9 +1,9 @@
 //! The platform file; docs/platform-file.md describes it.
 
-use super::document::{Node, quoted};
-use super::files::Files;
+use super::ConfigError;
+use super::document::quoted;
+use super::files::{Files, Source};
 use super::item::{Item, Section};
-use super::{ConfigError, Place};
 use crate::dynamics::Model;
 use crate::simulate::{Air, Law, Pad, Platform};
 use std::path::Path;
@@ -31,17 +31,21 @@ impl PlatformFile {
         Self::read(path, Files::Disk, robot)
     }
 
+    /// One of the platforms shipped in `config/platforms/`, by name ("air-bearing").
+    ///
+    /// # Errors
+    /// [`ConfigError`] where there is none of that name, or it names a body that `robot` has not.
+    pub fn shipped(name: &str, robot: &Model) -> Result<Self, ConfigError> {
+        let path = format!("config/platforms/{name}.toml");
+        Self::read(Path::new(&path), Files::Shipped, robot)
+    }
+
     pub(super) fn read(path: &Path, files: Files<'_>, robot: &Model) -> Result<Self, ConfigError> {
-        let source = path.display().to_string();
-        let text = files.read(path).map_err(|reason| ConfigError::Unreadable {
-            place: Place {
-                source: source.as_str().into(),
-                line: None,
-            },
-            reason,
-            expected: "a platform file",
-        })?;
-        let document = Node::parse(&source.as_str().into(), &text)?;
+        let Source {
+            path: source,
+            text,
+            document,
+        } = files.document(path, "a platform file")?;
         let mut platform = platform(&Item::root(&document), robot)?;
         if platform.name.is_empty() {
             let stem = path.file_stem().unwrap_or_default();

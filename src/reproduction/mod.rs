@@ -7,12 +7,11 @@
 pub mod bounds;
 pub mod document;
 pub mod figures;
+pub mod platform;
 mod session;
-mod sheet;
 pub mod table2;
 
 pub use session::{ReproductionError, Run, Session, Step};
-pub use sheet::Sheet;
 
 /// The shipped cases that have a solution, with the cost J* of their optimum.
 ///

@@ -4,7 +4,8 @@ use crate::config::ConfigError;
 use crate::nlp::Control;
 use crate::planner::{Event, Method, Plan, PlanError, Planner, Problem, Status};
 use crate::refine::Start;
-use crate::report::OutputError;
+use crate::report::{OutputError, SolutionError};
+use crate::simulate::SimulateError;
 use rustix::time::{ClockId, clock_gettime};
 
 /// Why nothing came of it.
@@ -20,6 +21,17 @@ pub enum ReproductionError {
         title: String,
         /// Why not.
         source: PlanError,
+    },
+    /// A saved plan cannot be used.
+    #[error(transparent)]
+    Solution(#[from] SolutionError),
+    /// A plan cannot be played on the platform.
+    #[error("{name}: {source}")]
+    Simulate {
+        /// The fit file, or what was being played.
+        name: String,
+        /// Why not.
+        source: SimulateError,
     },
     /// Stopped from outside.
     #[error("interrupted: nothing further was written")]

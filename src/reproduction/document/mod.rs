@@ -6,10 +6,9 @@ pub use claims::{Claim, Verdict, claims};
 
 use super::bounds::{self, Bounds};
 use super::figures::{Case, Drawn, Plans};
-use super::sheet::Sheet;
 use super::table2::{self, Row, SensitivityRow, SweepRow};
 use crate::nlp::ipopt;
-use crate::report::Build;
+use crate::report::{Build, Sheet};
 
 /// Everything the document is written from.
 #[derive(Debug, Clone)]

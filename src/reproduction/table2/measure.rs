@@ -78,7 +78,7 @@ impl Measured {
 
     /// The error, marked where it is above the tolerance.
     pub(super) fn error_cell(&self) -> String {
-        let error = crate::reproduction::sheet::short(self.max_error.unwrap_or(f64::NAN));
+        let error = crate::report::short(self.max_error.unwrap_or(f64::NAN));
         if self.reached {
             error
         } else {

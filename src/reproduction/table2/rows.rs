@@ -4,8 +4,7 @@ use super::Measured;
 use crate::config::ProblemFile;
 use crate::nlp::ipopt;
 use crate::refine::Method::{Adaptive, Global};
-use crate::report::Build;
-use crate::reproduction::sheet::{Sheet, exact, short};
+use crate::report::{Build, Sheet, exact, short};
 use crate::reproduction::{CASES, ReproductionError, Session};
 use serde::Serialize;
 

@@ -3,7 +3,7 @@
 use super::Measured;
 use crate::config::ProblemFile;
 use crate::refine::Method;
-use crate::reproduction::sheet::{Sheet, exact};
+use crate::report::{Sheet, exact};
 use crate::reproduction::{CASES, ReproductionError, Session};
 use serde::Serialize;
 
@@ -63,8 +63,7 @@ pub fn sensitivity_markdown(rows: &[SensitivityRow]) -> String {
     for problem in rows.chunk_by(|a, b| a.problem == b.problem) {
         let mut header = vec!["λ₁".to_string(), "λ₂".to_string()];
         header.extend(R_MAX.iter().map(|r| format!("r_max = {r}")));
-        let names: Vec<&str> = header.iter().map(String::as_str).collect();
-        let mut sheet = Sheet::new(&names);
+        let mut sheet = Sheet::new(&header);
         let same = |a: &SensitivityRow, b: &SensitivityRow| {
             a.lambda1 == b.lambda1 && a.lambda2 == b.lambda2
         };

@@ -4,7 +4,7 @@ use super::Measured;
 use crate::config::ProblemFile;
 use crate::plot::{Axis, Chart, Figure, Marker, Series, Stroke, Width};
 use crate::refine::Method::{Adaptive, Global};
-use crate::reproduction::sheet::{Sheet, exact};
+use crate::report::{Sheet, exact};
 use crate::reproduction::{ReproductionError, Session};
 use serde::Serialize;
 
