@@ -543,12 +543,14 @@ fn figures_of_the_paper_are_drawn() {
         ("figure2-relaxed", 3),
         ("figure2-smooth", 3),
         ("figure2-bounded", 3),
+        ("figure2-heavy-base", 3),
         ("figure3-relaxed", 6),
         ("figure3-smooth", 2),
         ("figure4", 6),
         ("figure4-bounded", 6),
         ("figure5", 6),
         ("figure6", 3),
+        ("figure6-heavy-base", 3),
     ] {
         let svg = folder.read(&format!("o/{name}.svg"));
         let titles = svg.matches("font-size=\"8\"").count();

@@ -29,8 +29,8 @@ impl FitReport {
         let mut text = format!(
             "Platform parameters by least squares: {}\n\n\
              Residuals are root mean squares in units of {} and {}; signs are not published, so \
-             that magnitudes\nare compared. A figure is marked ✓ where it is within one unit of \
-             what was measured.\n\n",
+             that magnitudes\nare compared. Reduced: divided by the numbers measured less those free \
+             instead of all. ✓: within one\nunit of what was measured.\n\n",
             self.name,
             shown(true, self.scale.attitude),
             shown(false, self.scale.length)
@@ -47,12 +47,21 @@ impl FitReport {
         text
     }
 
-    /// The hypothesis with the smallest residual.
+    /// The hypothesis with the smallest reduced residual, which numbers that are free are counted
+    /// against.
     pub fn best(&self) -> Option<&(String, Fit)> {
-        let residual = |(_, fit): &&(String, Fit)| fit.residual;
-        self.fits
-            .iter()
-            .min_by(|a, b| residual(a).total_cmp(&residual(b)))
+        let fits = self.fits.iter();
+        fits.min_by(|a, b| reduced(&a.1).total_cmp(&reduced(&b.1)))
+    }
+
+    /// The same among those with one platform for all experiments.
+    pub fn best_common(&self) -> Option<&(String, Fit)> {
+        let common = |(_, fit): &&(String, Fit)| {
+            let mut parameters = fit.parameters.iter();
+            parameters.all(|fitted| fitted.experiment.is_none())
+        };
+        let fits = self.fits.iter().filter(common);
+        fits.min_by(|a, b| reduced(&a.1).total_cmp(&reduced(&b.1)))
     }
 
     /// Difference of the magnitudes, in units of the scale.
@@ -67,13 +76,13 @@ impl FitReport {
 
     /// One row a hypothesis, one column a measurement.
     fn simulated(&self) -> Sheet {
-        let mut header = ["", "free", "residual", "starts that end there"]
+        let mut header = ["", "free", "residual", "reduced", "starts that end there"]
             .map(String::from)
             .to_vec();
         let columns = self.unfitted.iter();
         header.extend(columns.map(|c| format!("{} {}", c.experiment, c.what)));
         let mut sheet = Sheet::new(&header).words(1);
-        let mut add = |start: [String; 4], figures: Vec<String>| {
+        let mut add = |start: [String; 5], figures: Vec<String>| {
             sheet.row(start.into_iter().chain(figures).collect());
         };
         let cells = |found: &[Comparison]| -> Vec<String> {
@@ -84,10 +93,16 @@ impl FitReport {
             found.iter().map(cell).collect()
         };
         let measured = self.unfitted.iter().map(|c| shown(c.angle, c.measured));
-        let start = ["measured", "", "", ""].map(String::from);
+        let start = ["measured", "", "", "", ""].map(String::from);
         add(start, measured.collect());
         let residual = format!("{:.2}", self.unfitted_residual);
-        let start = ["as it is".into(), "0".into(), residual, String::new()];
+        let start = [
+            "as it is".into(),
+            "0".into(),
+            residual.clone(),
+            residual,
+            String::new(),
+        ];
         add(start, cells(&self.unfitted));
         for (name, fit) in &self.fits {
             let [starts, near] = fit.starts;
@@ -95,6 +110,7 @@ impl FitReport {
                 name.clone(),
                 fit.parameters.len().to_string(),
                 format!("{:.2}", fit.residual),
+                format!("{:.2}", reduced(fit)),
                 format!("{near} of {starts}"),
             ];
             add(start, cells(&fit.comparisons));
@@ -138,8 +154,8 @@ impl FitReport {
         };
         let data = best.comparisons.len();
         let mut text = format!(
-            "Best: {name}, residual {:.2} with {} numbers free for {data} measured.",
-            best.residual,
+            "Best: {name}, reduced residual {:.2} with {} numbers free for {data} measured.",
+            reduced(best),
             best.parameters.len()
         );
         let left: Vec<String> = best
@@ -222,6 +238,7 @@ impl FitReport {
                 .map(|(name, fit)| HypothesisRecord {
                     name,
                     residual: fit.residual,
+                    reduced_residual: reduced(fit),
                     starts: fit.starts[0],
                     starts_that_end_there: fit.starts[1],
                     simulations: fit.simulations,
@@ -231,6 +248,13 @@ impl FitReport {
                 .collect(),
         })
     }
+}
+
+/// The residual, its squares divided by the numbers measured less those free instead of all.
+pub fn reduced(fit: &Fit) -> f64 {
+    let count = fit.comparisons.len();
+    let left = count.saturating_sub(fit.parameters.len()).max(1);
+    fit.residual * (count as f64 / left as f64).sqrt()
 }
 
 /// An angle in degrees or a length in centimetres, as the paper gives them.
@@ -266,6 +290,7 @@ struct Unfitted<'a> {
 struct HypothesisRecord<'a> {
     name: &'a str,
     residual: f64,
+    reduced_residual: f64,
     starts: usize,
     starts_that_end_there: usize,
     simulations: usize,

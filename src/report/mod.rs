@@ -32,7 +32,7 @@ pub use comparison::ComparisonReport;
 pub use comparison_figure::comparison_figure;
 pub use convert::solution;
 pub use csv::trajectory_csv;
-pub use fit::FitReport;
+pub use fit::{FitReport, reduced};
 pub use format::{centimetres, degrees, rotation, seconds};
 pub use front::FrontReport;
 pub use json::to_json;

@@ -2,7 +2,8 @@
 
 use crate::config::ConfigError;
 use crate::nlp::Control;
-use crate::planner::{Event, Method, Plan, PlanError, Planner, Problem, Status};
+use crate::planner::front::Front;
+use crate::planner::{Comparison, Event, Method, Plan, PlanError, Planner, Problem, Status};
 use crate::refine::Start;
 use crate::report::{OutputError, SolutionError};
 use crate::simulate::SimulateError;
@@ -127,6 +128,42 @@ impl<'m> Session<'m> {
         self.make(method, title, problem, None)
     }
 
+    /// Plans `problem` by every method.
+    ///
+    /// # Errors
+    /// Those of [`Self::plan`].
+    pub fn compare(&mut self, problem: &Problem) -> Result<Comparison, ReproductionError> {
+        let title = format!("{} by every planner", problem.name);
+        self.begin(&title)?;
+        let mut told = |_, event: &Event<'_>| self.show(event);
+        let found = Comparison::plan(problem, &mut told)
+            .map_err(|source| ReproductionError::Plan { title, source })?;
+        let plans = found
+            .entries
+            .iter()
+            .filter_map(|entry| entry.plan.as_ref().ok());
+        refuse_interrupted(plans)?;
+        Ok(found)
+    }
+
+    /// Plans along `front` for every factor.
+    ///
+    /// # Errors
+    /// Those of [`Self::plan`].
+    pub fn sweep(
+        &mut self,
+        name: &str,
+        front: &mut Front<'_>,
+        factors: &[f64],
+    ) -> Result<(), ReproductionError> {
+        let title = format!("{name}, base motion against joint effort");
+        self.begin(&title)?;
+        front
+            .sweep(factors, &mut |_, event| self.show(event))
+            .map_err(|source| ReproductionError::Plan { title, source })?;
+        refuse_interrupted(front.points().iter().map(|point| &point.plan))
+    }
+
     fn make(
         &mut self,
         method: Method,
@@ -144,10 +181,18 @@ impl<'m> Session<'m> {
                 title: title.into(),
                 source,
             })?;
-        if plan.status == Status::Interrupted {
-            return Err(ReproductionError::Interrupted);
-        }
+        refuse_interrupted([&plan])?;
         Ok(plan)
+    }
+}
+
+fn refuse_interrupted<'p>(
+    plans: impl IntoIterator<Item = &'p Plan>,
+) -> Result<(), ReproductionError> {
+    let stopped = |plan: &Plan| plan.status == Status::Interrupted;
+    match plans.into_iter().any(stopped) {
+        true => Err(ReproductionError::Interrupted),
+        false => Ok(()),
     }
 }
 

@@ -84,3 +84,13 @@ fn subscript(number: usize) -> String {
     let digit = |c: char| char::from_u32(0x2080 + c.to_digit(10).unwrap_or(0)).unwrap_or(c);
     number.to_string().chars().map(digit).collect()
 }
+
+/// Largest error of a mesh iteration, and the middle of its segment, s.
+pub fn worst(record: &Record, duration: f64) -> (f64, f64) {
+    let error = |s: usize| record.segment_errors[s].iter().copied().fold(0.0, f64::max);
+    let s = (0..record.segments)
+        .max_by(|&a, &b| error(a).total_cmp(&error(b)))
+        .unwrap_or(0);
+    let ends = [record.breakpoints[s], record.breakpoints[s + 1]];
+    (error(s), 0.5 * duration * (ends[0] + ends[1]))
+}

@@ -2,7 +2,7 @@
 
 use crate::config::{FitFile, PlanSource};
 use crate::nlp::ipopt::interrupt;
-use crate::planner::{Method, PlanError, Problem};
+use crate::planner::{Method, PlanError, Problem, Status};
 use crate::report::{FitReport, Saved};
 use crate::reproduction::{ReproductionError, Session};
 use crate::simulate::fit::Experiments;
@@ -93,13 +93,12 @@ fn played(
                 }) => return Err(found.blame(error).into()),
                 plan => plan?,
             };
+            let status = match plan.status {
+                Status::Infeasible => "beyond its limits",
+                status => status.name(),
+            };
             Ok(Played {
-                source: format!(
-                    "{} by {}, {}",
-                    found.path,
-                    method.name(),
-                    plan.status.name()
-                ),
+                source: format!("{} by {}, {status}", found.path, method.name()),
                 problem: found.problem,
                 plan: plan.discretization,
             })
