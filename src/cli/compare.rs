@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::progress::Progress;
-use super::{Outcome, interrupt, terminal};
+use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::{Comparison, Status};
@@ -46,20 +46,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     progress.finish();
     let found = found.map_err(|error| Failure::planning(&file, None, error))?;
 
-    let mut files = write(&path, &file, &found)?;
+    let files = write(&path, &file, &found)?;
     let report = ComparisonReport::of(&problem.name, &found);
-    let failure = |message: String| Failure::Format {
-        path: file.path.clone(),
-        message,
-    };
+    let figure = comparison_figure(problem, &found);
+    let to = ("compare", &folder);
     let text = report.markdown();
-    let json = report.json().map_err(|error| failure(error.to_string()))?;
-    let csv = report.csv().map_err(|error| failure(error.to_string()))?;
-    files.push(folder.write("compare.md", &text)?);
-    files.push(folder.write("compare.csv", &csv)?);
-    files.push(folder.write("compare.json", &json)?);
-    files.extend(folder.write_figure("compare", &comparison_figure(problem, &found))?);
-    terminal::results(&text, &files, arguments.json.then_some(&json))?;
+    rows::write(to, &report, &text, &figure, files, arguments.json)?;
     Ok(outcome(&found))
 }
 

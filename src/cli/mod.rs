@@ -11,6 +11,7 @@ mod pareto;
 mod plan;
 mod progress;
 mod reproduce;
+mod rows;
 mod show;
 mod simulate;
 mod steps;

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::progress::Progress;
-use super::{Outcome, interrupt, terminal};
+use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::Status;
@@ -73,20 +73,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     swept.map_err(|error| Failure::planning(&file, None, error))?;
 
     let report = FrontReport::of(&problem.name, front.points(), &notes);
-    let failure = |message: String| Failure::Format {
-        path: file.path.clone(),
-        message,
-    };
-    let text = report.markdown();
-    let json = report.json().map_err(|error| failure(error.to_string()))?;
-    let csv = report.csv().map_err(|error| failure(error.to_string()))?;
-    let mut files = vec![
-        folder.write("pareto.md", &text)?,
-        folder.write("pareto.csv", &csv)?,
-        folder.write("pareto.json", &json)?,
-    ];
-    files.extend(folder.write_figure("pareto", &report.figure())?);
-    terminal::results(&text, &files, arguments.json.then_some(&json))?;
+    let to = ("pareto", &folder);
+    let (text, figure) = (report.markdown(), report.figure());
+    rows::write(to, &report, &text, &figure, Vec::new(), arguments.json)?;
     Ok(outcome(
         front.points().iter().map(|point| point.plan.status),
     ))

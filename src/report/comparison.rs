@@ -1,22 +1,16 @@
 //! What `compare` leaves behind: one task by every planner as Markdown, CSV and JSON.
 
-use super::rows::{rows_csv, rows_json};
-use super::{Build, Sheet};
-use crate::nlp::ipopt;
+use super::Sheet;
+use super::rows::Rows;
 use crate::planner::{Comparison, Entry, JointEffort, Metrics, Status};
 use serde::Serialize;
 
 /// One task by every planner.
-#[derive(Debug, Clone)]
-pub struct ComparisonReport<'a> {
-    name: &'a str,
-    rows: Vec<Row>,
-    notes: &'a [String],
-}
+pub type ComparisonReport<'a> = Rows<'a, ComparisonRow>;
 
 /// One planner; SI units and radians, null where there is no plan.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct Row {
+pub struct ComparisonRow {
     method: &'static str,
     description: &'static str,
     /// As in `solution.json`, or "not_for_this_task".
@@ -38,7 +32,7 @@ struct Row {
     seconds: Option<f64>,
 }
 
-impl Row {
+impl ComparisonRow {
     /// The row of one planner.
     fn of(entry: &Entry) -> Self {
         let (plan, refused) = match &entry.plan {
@@ -83,7 +77,7 @@ impl<'a> ComparisonReport<'a> {
     pub fn of(name: &'a str, found: &'a Comparison) -> Self {
         Self {
             name,
-            rows: found.entries.iter().map(Row::of).collect(),
+            rows: found.entries.iter().map(ComparisonRow::of).collect(),
             notes: &found.notes,
         }
     }
@@ -100,32 +94,13 @@ impl<'a> ComparisonReport<'a> {
                 text.push_str(&format!("- {}: {reason}\n", row.method));
             }
         }
-        for note in self.notes {
-            text.push_str(&format!("- {note}\n"));
-        }
+        text.push_str(&self.list());
         text.push_str(&format!(
             "\nAngles are the largest of any base angle. Sliding joints count in m and N. J is \
-             the problem's cost, whatever a planner's own.\nffsm-ipopt {}, Ipopt {}.\n",
-            Build::VERSION,
-            ipopt::version()
+             the problem's cost, whatever a planner's own.\n{}",
+            Self::origin()
         ));
         text
-    }
-
-    /// `compare.csv`: one row a planner.
-    ///
-    /// # Errors
-    /// None that is expected: rows are flat.
-    pub fn csv(&self) -> Result<String, csv::Error> {
-        rows_csv(&self.rows)
-    }
-
-    /// `compare.json`.
-    ///
-    /// # Errors
-    /// None that is expected: all keys are strings.
-    pub fn json(&self) -> serde_json::Result<String> {
-        rows_json(self.name, &self.rows, self.notes)
     }
 
     fn sheet(&self) -> Sheet {

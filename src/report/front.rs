@@ -1,47 +1,41 @@
 //! What `pareto` leaves behind: the trade-off curve as Markdown, CSV and JSON.
 
-use super::rows::{rows_csv, rows_json};
-use super::{Build, Sheet};
-use crate::nlp::ipopt;
+use super::Sheet;
+use super::rows::Rows;
 use crate::planner::JointEffort;
 use crate::planner::front::FrontPoint;
 use serde::Serialize;
 
 /// The trade-off between the base's motion and the joints' effort.
-#[derive(Debug, Clone)]
-pub struct FrontReport<'a> {
-    pub(super) name: &'a str,
-    pub(super) rows: Vec<Row>,
-    notes: &'a [String],
-}
+pub type FrontReport<'a> = Rows<'a, FrontRow>;
 
 /// One point of the curve; SI units and radians.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Row {
+pub struct FrontRow {
     /// On the weights of the base.
-    pub factor: f64,
-    pub status: &'static str,
+    pub(super) factor: f64,
+    pub(super) status: &'static str,
     /// Weighted terms of the cost about the base, without the factor.
-    pub base_motion: f64,
+    pub(super) base_motion: f64,
     /// Weighted terms of the cost about the joints.
-    pub joint_effort: f64,
-    pub max_base_attitude: f64,
-    pub final_base_attitude: f64,
-    pub max_base_displacement: f64,
-    pub final_base_displacement: f64,
-    pub base_rate_integral: f64,
-    pub control_integral: f64,
-    pub torque_integral: f64,
-    pub peak_joint_velocity: f64,
-    pub peak_joint_torque: f64,
-    pub meshes: usize,
-    pub nlp_iterations: u32,
-    pub points: usize,
+    pub(super) joint_effort: f64,
+    pub(super) max_base_attitude: f64,
+    pub(super) final_base_attitude: f64,
+    pub(super) max_base_displacement: f64,
+    pub(super) final_base_displacement: f64,
+    pub(super) base_rate_integral: f64,
+    pub(super) control_integral: f64,
+    pub(super) torque_integral: f64,
+    pub(super) peak_joint_velocity: f64,
+    pub(super) peak_joint_torque: f64,
+    pub(super) meshes: usize,
+    pub(super) nlp_iterations: u32,
+    pub(super) points: usize,
     /// Wall time, s.
-    pub seconds: f64,
+    pub(super) seconds: f64,
 }
 
-impl Row {
+impl FrontRow {
     /// The row of one point.
     fn of(point: &FrontPoint) -> Self {
         let plan = &point.plan;
@@ -79,7 +73,7 @@ impl<'a> FrontReport<'a> {
     pub fn of(name: &'a str, points: &[FrontPoint], notes: &'a [String]) -> Self {
         Self {
             name,
-            rows: points.iter().map(Row::of).collect(),
+            rows: points.iter().map(FrontRow::of).collect(),
             notes,
         }
     }
@@ -93,31 +87,9 @@ impl<'a> FrontReport<'a> {
             self.name,
             self.sheet().markdown()
         );
-        for note in self.notes {
-            text.push_str(&format!("- {note}\n"));
-        }
-        text.push_str(&format!(
-            "ffsm-ipopt {}, Ipopt {}.\n",
-            Build::VERSION,
-            ipopt::version()
-        ));
+        text.push_str(&self.list());
+        text.push_str(&Self::origin());
         text
-    }
-
-    /// `pareto.csv`: one row a point.
-    ///
-    /// # Errors
-    /// None that is expected: rows are flat.
-    pub fn csv(&self) -> Result<String, csv::Error> {
-        rows_csv(&self.rows)
-    }
-
-    /// `pareto.json`.
-    ///
-    /// # Errors
-    /// None that is expected: all keys are strings.
-    pub fn json(&self) -> serde_json::Result<String> {
-        rows_json(self.name, &self.rows, self.notes)
     }
 
     fn sheet(&self) -> Sheet {

@@ -28,18 +28,19 @@ mod verification;
 mod warm_start;
 
 pub use build::Build;
-pub use comparison::ComparisonReport;
+pub use comparison::{ComparisonReport, ComparisonRow};
 pub use comparison_figure::comparison_figure;
 pub use convert::solution;
 pub use csv::trajectory_csv;
 pub use fit::{FitReport, reduced};
 pub use format::{centimetres, degrees, rotation, seconds};
-pub use front::FrontReport;
+pub use front::{FrontReport, FrontRow};
 pub use json::to_json;
 pub use lines::Lines;
 pub use output::{OutputError, OutputFolder};
 pub use provenance::Provenance;
 pub use read::{Saved, SolutionError, read_solution};
+pub use rows::Rows;
 pub use sheet::{Sheet, exact, short};
 pub use simulation::Simulation;
 pub use solution::{
