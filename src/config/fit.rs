@@ -347,6 +347,24 @@ mod tests {
     }
 
     #[test]
+    fn shipped_fits_bring_their_problems_and_platform() {
+        for name in ["published", "published-heavy-base"] {
+            let fit = FitFile::shipped(name).unwrap();
+            for experiment in &fit.experiments {
+                let PlanSource::Problem(path, _) = &experiment.plan else {
+                    panic!("{experiment:?}");
+                };
+                let file = fit.problem(path).unwrap();
+                assert_eq!(file.path, format!("config/{}.toml", file.problem.name));
+                assert_eq!(
+                    fit.platform(&file.problem.robot).unwrap().platform.name,
+                    "ideal"
+                );
+            }
+        }
+    }
+
+    #[test]
     fn the_published_measurements_are_read() {
         let fit = read(SHIPPED).unwrap();
         assert_eq!(fit.platform, Path::new("a/ideal.toml"));

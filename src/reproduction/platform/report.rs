@@ -205,8 +205,8 @@ impl Platform {
             )
         };
         format!(
-            "\nOf the sets that are the same in both runs, {} explains most with Table I's base and {} \
-             with the heavier one.\n",
+            "\nOf the sets that are the same in both runs, {} explains most where the plans are for \
+             Table I's base, {} where they are for the heavier one.\n",
             best(false),
             best(true)
         )
