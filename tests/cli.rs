@@ -543,20 +543,22 @@ fn figures_of_the_paper_are_drawn() {
         ("figure2-relaxed", 3),
         ("figure2-smooth", 3),
         ("figure2-bounded", 3),
+        ("figure2-heavy-base", 3),
         ("figure3-relaxed", 6),
         ("figure3-smooth", 2),
         ("figure4", 6),
         ("figure4-bounded", 6),
         ("figure5", 6),
         ("figure6", 3),
+        ("figure6-heavy-base", 3),
     ] {
         let svg = folder.read(&format!("o/{name}.svg"));
         let titles = svg.matches("font-size=\"8\"").count();
         assert_eq!(titles, panels, "{name}");
-        let axis = if panels == 6 && name != "figure3-relaxed" {
-            "x (m)"
-        } else {
-            "Time (s)"
+        let axis = match name {
+            "figure3-relaxed" | "figure3-smooth" => "Boundaries of the segments (s)",
+            _ if panels == 6 => "x (m)",
+            _ => "Time (s)",
         };
         assert_eq!(svg.matches(axis).count(), panels, "{name}");
         let png = std::fs::read(folder.path().join(format!("o/{name}.png"))).unwrap();
@@ -576,10 +578,10 @@ fn doctor_finds_a_linear_solver() {
     }
 }
 
-/// Ctrl-C leaves the best trajectory, marked.
+/// Interrupts a command at work on a mesh that takes it long; its folder is returned, which then
+/// holds what was written whole and nothing else.
 #[cfg(unix)]
-#[test]
-fn an_interrupted_plan_is_written_and_marked() {
+fn interrupted(command: &str, extra: &[&str]) -> Folder {
     use std::process::{Command, Stdio};
     use std::time::Duration;
 
@@ -589,8 +591,10 @@ fn an_interrupted_plan_is_written_and_marked() {
         .replace("tolerance = 1e-3", "tolerance = 1e-13");
     let folder = Folder::new(&problem);
     let mut child = Command::new(env!("CARGO_BIN_EXE_ffsm-ipopt"))
-        .args(["plan", "case.toml", "--out", "o", "--quiet"])
+        .args([command, "case.toml", "--out", "o"])
+        .args(extra)
         .current_dir(folder.path())
+        .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
@@ -600,14 +604,57 @@ fn an_interrupted_plan_is_written_and_marked() {
     }
     std::thread::sleep(Duration::from_millis(300));
     // The shell's own: a bare Debian has no program of that name.
-    let interrupted = Command::new("sh")
+    let sent = Command::new("sh")
         .args(["-c", &format!("kill -INT {}", child.id())])
         .status()
         .unwrap();
-    assert!(interrupted.success());
+    assert!(sent.success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
+    for entry in std::fs::read_dir(folder.path().join("o")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert!(!name.starts_with('.'), "left behind: {name}");
+    }
+    folder
+}
+
+/// Ctrl-C leaves the best trajectory, marked.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_plan_is_written_and_marked() {
+    let folder = interrupted("plan", &["--quiet"]);
     let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
     assert_eq!(solution["status"], "interrupted");
+}
+
+/// Ctrl-C leaves the plans made until then, the last of them marked.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_comparison_is_written_as_far_as_it_came() {
+    let folder = interrupted("compare", &[]);
+    let found: Value = serde_json::from_str(&folder.read("o/compare.json")).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    assert_eq!(rows.last().unwrap()["status"], "interrupted", "{rows:?}");
+    for row in rows {
+        let path = format!("o/{}/solution.json", row["method"].as_str().unwrap());
+        let solution: Value = serde_json::from_str(&folder.read(&path)).unwrap();
+        assert_eq!(solution["status"], row["status"]);
+    }
+    let table = folder.read("o/compare.md");
+    assert!(table.contains("| interrupted |"), "{table}");
+    assert_eq!(folder.read("o/compare.csv").lines().count(), 1 + rows.len());
+    assert!(folder.path().join("o/compare.png").exists());
+}
+
+/// Ctrl-C leaves the points found until then, the last of them marked.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_trade_off_is_written_as_far_as_it_came() {
+    let folder = interrupted("pareto", &[]);
+    let found: Value = serde_json::from_str(&folder.read("o/pareto.json")).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    assert_eq!(rows.last().unwrap()["status"], "interrupted", "{rows:?}");
+    assert_eq!(folder.read("o/pareto.csv").lines().count(), 1 + rows.len());
+    assert!(folder.path().join("o/pareto.png").exists());
 }
 
 /// `PROBLEM` with a forearm off the plane, so that the robot moves in space.

@@ -271,7 +271,7 @@ fn acceleration_qp_reaches_the_goal_within_the_limits() {
     assert_eq!(qp.status, Status::Solved, "{:?}", qp.diagnosis);
     let last = qp.trajectory.joint_position.last().unwrap();
     for (q, goal) in last.iter().zip(&problem.task.final_joints) {
-        assert!((q - goal).abs() < 1e-4);
+        assert!((q - goal).abs() < 1e-9, "{q} {goal}");
     }
     assert!(qp.metrics.peak_joint_velocity <= 0.06 + 1e-9);
     let drift = verify(&problem, &qp.discretization).unwrap();

@@ -601,6 +601,15 @@ fn a_fit_finds_the_platform_that_was_measured() {
     for (fitted, truth) in found.parameters.iter().zip(truth) {
         assert_near(fitted.value, truth, 5e-3, fitted.parameter.key);
     }
+    // What is found with fewer numbers is not missed with more, whatever the start.
+    let experiment = (player.clone(), measured(figures.final_attitude.abs()));
+    let experiments = Experiments::new(vec![experiment], scale);
+    let hypotheses = [unknowns.to_vec(), unknowns[..1].to_vec()];
+    let fits = experiments
+        .fit_each(&Platform::default(), &hypotheses, 1, &|| false)
+        .unwrap();
+    assert!(fits[0].residual <= fits[1].residual, "{fits:?}");
+    assert_eq!(fits[1].parameters.len(), 1);
     // A final attitude above the largest cannot be: what remains is shared, not hidden.
     let impossible = fit(figures.max_attitude + 4f64.to_radians());
     assert!(impossible.residual > 1.0, "{}", impossible.residual);

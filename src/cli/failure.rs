@@ -54,6 +54,11 @@ impl Failure {
             Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,
             Self::NoLinearSolver => 1,
             Self::Reproduction(ReproductionError::Interrupted) => Outcome::Interrupted as u8,
+            Self::Reproduction(
+                ReproductionError::Config(_)
+                | ReproductionError::Solution(_)
+                | ReproductionError::Simulate { .. },
+            ) => 2,
             Self::Reproduction(_) => 1,
         }
     }

@@ -2,20 +2,16 @@
 
 mod check;
 mod compare;
-mod compare_figure;
-mod compare_report;
 mod doctor;
 mod failure;
 mod figures;
 mod fit;
 mod interrupt;
-mod parallel;
 mod pareto;
-mod pareto_figure;
-mod pareto_report;
 mod plan;
 mod progress;
 mod reproduce;
+mod rows;
 mod show;
 mod simulate;
 mod steps;

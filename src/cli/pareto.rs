@@ -1,16 +1,13 @@
 //! `pareto`: base motion against joint effort.
 
-use super::compare_report::csv;
 use super::failure::Failure;
-use super::pareto_figure::figure;
-use super::pareto_report::{self, Row};
 use super::progress::Progress;
-use super::{Outcome, interrupt, terminal};
+use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::Status;
-use crate::planner::front::{Front, balanced};
-use crate::report::OutputFolder;
+use crate::planner::front::{Front, balanced, factors};
+use crate::report::{FrontReport, OutputFolder};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -59,25 +56,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             arguments.from, arguments.to
         )));
     }
-    let mut overrides = Overrides::default();
-    for assignment in &arguments.set {
-        overrides.set(assignment)?;
-    }
-    let file = ProblemFile::load(&arguments.problem, &overrides)?;
+    let file = ProblemFile::load(&arguments.problem, &Overrides::of(&arguments.set)?)?;
     let default = || Path::new("out").join(format!("{}-pareto", file.problem.name));
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
     interrupt::listen();
 
     let (problem, notes) = balanced(&file.problem);
     let mut progress = Progress::start(&problem.name, false);
-    let steps = i32::from(arguments.points) - 1;
-    let ratio = (arguments.to / arguments.from).powf(1.0 / f64::from(steps));
-    let factors: Vec<f64> = (0..=steps)
-        .map(|k| match k == steps {
-            true => arguments.to,
-            false => arguments.from * ratio.powi(k),
-        })
-        .collect();
+    let factors = factors(arguments.from, arguments.to, arguments.points);
     let mut front = Front::new(&problem);
     let swept = front.sweep(&factors, &mut |factor, event| {
         progress.retitle(&format!("{}, base × {factor:.3e}", problem.name));
@@ -86,26 +72,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     progress.finish();
     swept.map_err(|error| Failure::planning(&file, None, error))?;
 
-    let rows: Vec<Row> = front.points().iter().map(Row::of).collect();
-    let name = &problem.name;
-    let text = pareto_report::markdown(name, &rows, &notes);
-    let json = pareto_report::json(name, &rows, &notes)?;
-    let mut files = vec![
-        folder.write("pareto.md", &text)?,
-        folder.write("pareto.csv", &csv(&rows)?)?,
-        folder.write("pareto.json", &json)?,
-    ];
-    files.extend(folder.write_figure("pareto", &figure(name, &rows))?);
-    if arguments.json {
-        terminal::print(&json)?;
-        terminal::warn(&text);
-    } else {
-        let list: String = files
-            .iter()
-            .map(|f| format!("written {}\n", f.display()))
-            .collect();
-        terminal::print(&format!("{text}\n{list}"))?;
-    }
+    let report = FrontReport::of(&problem.name, front.points(), &notes);
+    let to = ("pareto", &folder);
+    let (text, figure) = (report.markdown(), report.figure());
+    rows::write(to, &report, &text, &figure, Vec::new(), arguments.json)?;
     Ok(outcome(
         front.points().iter().map(|point| point.plan.status),
     ))

@@ -65,10 +65,7 @@ impl ValueEnum for MethodName {
 
 impl Arguments {
     fn overrides(&self) -> Result<Overrides, ConfigError> {
-        let mut overrides = Overrides::default();
-        for assignment in &self.set {
-            overrides.set(assignment)?;
-        }
+        let mut overrides = Overrides::of(&self.set)?;
         // The other planners change nothing of the problem.
         if let Some(MethodName(Method::Collocation(method))) = self.method {
             let name = method.name();

@@ -3,10 +3,11 @@
 use super::failure::Failure;
 use super::steps::Steps;
 use super::{Outcome, terminal};
-use crate::report::{OutputFolder, to_json};
+use crate::report::OutputFolder;
 use crate::reproduction::document::{self, Findings};
-use crate::reproduction::figures::{self, Drawn, Plans};
-use crate::reproduction::{Session, Step, bounds, table2};
+use crate::reproduction::figures::Drawn;
+use crate::reproduction::platform::Platform;
+use crate::reproduction::{Session, Step, bounds};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -28,21 +29,29 @@ pub(super) struct Arguments {
 enum Part {
     /// Why the published case has no solution
     Bounds,
+    /// What explains the measurements on the ground platform
+    Platform,
 }
 
 /// Runs, writes, prints.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     match arguments.part {
-        Some(Part::Bounds) => {
-            let mut steps = Steps::listen();
-            let mut monitor = |step: Step<'_>| steps.show(step);
-            let (found, _) = bounds::bounds(&mut Session::new(&mut monitor))?;
-            steps.finish();
-            terminal::print(&bounds::markdown(&found))?;
-            Ok(Outcome::Done)
-        }
+        Some(part) => alone(part),
         None => all(arguments),
     }
+}
+
+fn alone(part: Part) -> Result<Outcome, Failure> {
+    let mut steps = Steps::listen();
+    let mut monitor = |step: Step<'_>| steps.show(step);
+    let mut session = Session::new(&mut monitor);
+    let text = match part {
+        Part::Bounds => bounds::markdown(&bounds::bounds(&mut session)?.0),
+        Part::Platform => Platform::examine(&mut session)?.markdown(),
+    };
+    steps.finish();
+    terminal::print(&text)?;
+    Ok(Outcome::Done)
 }
 
 fn all(arguments: &Arguments) -> Result<Outcome, Failure> {
@@ -50,42 +59,15 @@ fn all(arguments: &Arguments) -> Result<Outcome, Failure> {
     let pictures = OutputFolder::create(&arguments.out.join("figures"))?;
     let mut steps = Steps::listen();
     let mut monitor = |step: Step<'_>| steps.show(step);
-    let mut session = Session::new(&mut monitor);
-    let (found, bounded) = bounds::bounds(&mut session)?;
-    let plans = Plans::make(&mut session)?;
-    let findings = Findings {
-        repeat: arguments.repeat,
-        rows: table2::rows(&mut session, arguments.repeat)?,
-        sensitivity: table2::sensitivity(&mut session)?,
-        sweep: table2::sweep(&mut session)?,
-        bounds: found,
-        figures: figures::all(&plans, &bounded),
-        bounded,
-        plans,
-    };
+    let findings = Findings::gather(&mut Session::new(&mut monitor), arguments.repeat)?;
     steps.finish();
-    let sheets = [
-        ("table2.csv", table2::sheet(&findings.rows)),
-        (
-            "sensitivity.csv",
-            table2::sensitivity_sheet(&findings.sensitivity),
-        ),
-        ("sweep.csv", table2::sweep_sheet(&findings.sweep)),
-    ];
-    for (name, sheet) in sheets {
-        folder.write(name, &sheet.csv())?;
+    for (name, text) in document::data(&findings)? {
+        folder.write(&name, &text)?;
     }
-    let json = to_json(&findings.bounds).map_err(|error| Failure::Format {
-        path: "bounds.json".into(),
-        message: error.to_string(),
-    })?;
-    folder.write("bounds.json", &json)?;
-    pictures.write_figure("sweep", &table2::sweep_figure(&findings.sweep))?;
-    for Drawn { name, figure, .. } in &findings.figures {
-        pictures.write_figure(name, figure)?;
+    for Drawn { name, figure, .. } in document::pictures(&findings) {
+        pictures.write_figure(&name, &figure)?;
     }
-    let text = document::markdown(&findings);
-    let path = folder.write("reproduction.md", &text)?;
+    let path = folder.write("reproduction.md", &document::markdown(&findings))?;
     terminal::print(&format!("written {}\n", path.display()))?;
     Ok(Outcome::Done)
 }

@@ -1,7 +1,7 @@
 //! `simulate`: a saved plan played on a model of the ground platform.
 
 use super::failure::Failure;
-use super::{Outcome, fit, parallel, terminal};
+use super::{Outcome, fit, terminal};
 use crate::config::PlatformFile;
 use crate::dynamics::JointKind;
 use crate::report::{OutputFolder, Saved, Simulation};
@@ -65,10 +65,7 @@ fn play(arguments: &Arguments, solution: &Path, platform: &Path) -> Result<Outco
     };
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
 
-    let runs = parallel::in_order(player.platform().repeats, &|index| player.run(index))
-        .into_iter()
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(failure)?;
+    let runs = player.runs().map_err(failure)?;
     let simulation = Simulation {
         name: &problem.name,
         solution: solution.display().to_string(),

@@ -1,9 +1,10 @@
 //! The fit file; docs/platform-file.md describes it.
 
-use super::document::{Node, quoted};
-use super::files::Files;
+use super::document::quoted;
+use super::files::{Files, Source, without_parents};
 use super::item::{Item, Section, hint};
-use super::{ConfigError, Place};
+use super::{ConfigError, Overrides, PlatformFile, ProblemFile};
+use crate::dynamics::Model;
 use crate::planner::Method;
 use crate::simulate::fit::{Measured, Parameter, Scale, Unknown};
 use std::path::{Path, PathBuf};
@@ -32,6 +33,8 @@ pub struct FitFile {
     pub unknowns: Vec<Unknown>,
     /// Which of them are fitted together.
     pub hypotheses: Vec<Hypothesis>,
+    /// Whether it came with the program; the files it names then do as well.
+    shipped: bool,
 }
 
 /// One experiment.
@@ -70,17 +73,21 @@ impl FitFile {
         Self::read(path, Files::Disk)
     }
 
+    /// One of the fits shipped in `config/platforms/`, by name ("published").
+    ///
+    /// # Errors
+    /// [`ConfigError`] where there is none of that name.
+    pub fn shipped(name: &str) -> Result<Self, ConfigError> {
+        let path = format!("config/platforms/{name}.toml");
+        Self::read(Path::new(&path), Files::Shipped)
+    }
+
     fn read(path: &Path, files: Files<'_>) -> Result<Self, ConfigError> {
-        let source = path.display().to_string();
-        let text = files.read(path).map_err(|reason| ConfigError::Unreadable {
-            place: Place {
-                source: source.as_str().into(),
-                line: None,
-            },
-            reason,
-            expected: "a fit file",
-        })?;
-        let document = Node::parse(&source.as_str().into(), &text)?;
+        let Source {
+            path: source,
+            text,
+            document,
+        } = files.document(path, "a fit file")?;
         let root = Item::root(&document).section(&[
             "schema",
             "name",
@@ -107,9 +114,44 @@ impl FitFile {
             experiments: experiments(&root, folder)?,
             hypotheses: hypotheses(&root, &unknowns)?,
             unknowns,
+            shipped: files == Files::Shipped,
             path: source,
             text,
         })
+    }
+
+    /// The platform that is fitted, for `robot`.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for the first thing found wrong in its file.
+    pub fn platform(&self, robot: &Model) -> Result<PlatformFile, ConfigError> {
+        PlatformFile::read(&self.platform, self.files(), robot)
+    }
+
+    /// The problem of an experiment that is planned.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for the first thing found wrong in its files.
+    pub fn problem(&self, path: &Path) -> Result<ProblemFile, ConfigError> {
+        let mut file = ProblemFile::read(path, self.files(), &Overrides::default())?;
+        file.path = without_parents(path).display().to_string();
+        Ok(file)
+    }
+
+    /// The unknowns of every hypothesis.
+    pub fn unknowns_by_hypothesis(&self) -> Vec<Vec<Unknown>> {
+        let of = |h: &Hypothesis| {
+            let places = h.unknowns.iter();
+            places.map(|&u| self.unknowns[u].clone()).collect()
+        };
+        self.hypotheses.iter().map(of).collect()
+    }
+
+    fn files(&self) -> Files<'static> {
+        match self.shipped {
+            true => Files::Shipped,
+            false => Files::Disk,
+        }
     }
 }
 
@@ -302,6 +344,24 @@ mod tests {
             fit.experiments.iter().map(|e| e.measured.clone()).collect()
         };
         assert_eq!(measured(&heavy), measured(&fit));
+    }
+
+    #[test]
+    fn shipped_fits_bring_their_problems_and_platform() {
+        for name in ["published", "published-heavy-base"] {
+            let fit = FitFile::shipped(name).unwrap();
+            for experiment in &fit.experiments {
+                let PlanSource::Problem(path, _) = &experiment.plan else {
+                    panic!("{experiment:?}");
+                };
+                let file = fit.problem(path).unwrap();
+                assert_eq!(file.path, format!("config/{}.toml", file.problem.name));
+                assert_eq!(
+                    fit.platform(&file.problem.robot).unwrap().platform.name,
+                    "ideal"
+                );
+            }
+        }
     }
 
     #[test]

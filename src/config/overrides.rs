@@ -19,6 +19,18 @@ struct Entry {
 }
 
 impl Overrides {
+    /// Those of `--set key.path=value`, given any number of times.
+    ///
+    /// # Errors
+    /// As of [`Self::set`].
+    pub fn of(assignments: &[String]) -> Result<Self, ConfigError> {
+        let mut overrides = Self::default();
+        for assignment in assignments {
+            overrides.set(assignment)?;
+        }
+        Ok(overrides)
+    }
+
     /// Adds `--set key.path=value`; the value is read as TOML, or as a string where it is none.
     ///
     /// # Errors

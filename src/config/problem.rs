@@ -66,25 +66,21 @@ impl ProblemFile {
         )
     }
 
-    fn read(path: &Path, files: Files<'_>, overrides: &Overrides) -> Result<Self, ConfigError> {
-        let source = path.display().to_string();
-        let text = files.read(path).map_err(|reason| ConfigError::Unreadable {
-            place: Place {
-                source: source.as_str().into(),
-                line: None,
-            },
-            reason,
-            expected: "a problem file",
-        })?;
-        let mut document = Node::parse(&source.as_str().into(), &text)?;
+    pub(super) fn read(
+        path: &Path,
+        files: Files<'_>,
+        overrides: &Overrides,
+    ) -> Result<Self, ConfigError> {
+        let source = files.document(path, "a problem file")?;
+        let mut document = source.document;
         overrides.apply(&mut document)?;
         let (problem, robot, note) = read(&document, path, files)?;
         let file = Self {
             notes: robot.notes(&problem).into_iter().chain(note).collect(),
             end_effector: robot.end_effector(),
             problem,
-            path: source,
-            text,
+            path: source.path,
+            text: source.text,
             overrides: overrides.flags(),
             robot: robot.file,
             document,

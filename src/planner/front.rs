@@ -131,6 +131,14 @@ impl<'a> Front<'a> {
     }
 }
 
+/// `count` factors from `from` to `to`, both included, in even ratios.
+pub fn factors(from: f64, to: f64, count: u16) -> Vec<f64> {
+    let steps = i32::from(count.max(2)) - 1;
+    let ratio = (to / from).powf(1.0 / f64::from(steps));
+    let at = |k| if k == steps { to } else { from * ratio.powi(k) };
+    (0..=steps).map(at).collect()
+}
+
 /// `problem` with weights on both sides of its cost, and what was added where there were none.
 pub fn balanced(problem: &Problem) -> (Problem, Vec<String>) {
     let mut problem = problem.clone();

@@ -2,6 +2,7 @@
 
 mod acceleration_qp;
 mod base_rate;
+mod comparison;
 mod cost_terms;
 mod diagnosis;
 mod event;
@@ -30,6 +31,7 @@ mod way_point;
 
 pub use crate::refine::Start;
 pub use base_rate::REGULARIZATION as BASE_RATE_REGULARIZATION;
+pub use comparison::{Comparison, Entry};
 pub use cost_terms::{CostTerms, JointEffort};
 pub use event::Event;
 pub use free_floating::FreeFloating;

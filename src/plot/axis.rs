@@ -1,5 +1,7 @@
 //! An axis as asked for; its range is found from the data.
 
+use super::ruler::{Ruler, Tick};
+
 /// How values are laid along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scale {
@@ -13,6 +15,7 @@ pub struct Axis {
     pub(super) label: String,
     pub(super) scale: Scale,
     pub(super) range: Option<[f64; 2]>,
+    pub(super) ticks: Vec<Tick>,
 }
 
 impl Axis {
@@ -22,6 +25,7 @@ impl Axis {
             label: label.into(),
             scale: Scale::Linear,
             range: None,
+            ticks: Vec::new(),
         }
     }
 
@@ -38,5 +42,25 @@ impl Axis {
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some([low, high]);
         self
+    }
+
+    /// Ticks at these values with these labels instead of round ones.
+    #[must_use]
+    pub fn ticks(mut self, ticks: &[(f64, String)]) -> Self {
+        let tick = |(value, label): &(f64, String)| Tick {
+            value: *value,
+            label: label.clone(),
+        };
+        self.ticks = ticks.iter().map(tick).collect();
+        self
+    }
+
+    /// Ticks on `ruler`, at most about `most` of them with labels unless they were given.
+    pub(super) fn ticks_on(&self, ruler: &Ruler, most: usize) -> Vec<Tick> {
+        if self.ticks.is_empty() {
+            ruler.ticks(most)
+        } else {
+            self.ticks.clone()
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! A chart: two axes and what is drawn between them.
 
+use super::Colour;
 use super::axis::Axis;
-use super::series::Series;
+use super::series::{Series, Stroke};
 use super::shape::Shape;
 
 /// Values that must not be exceeded, drawn dashed.
@@ -24,6 +25,8 @@ pub struct Chart {
     pub(super) height: f64,
     pub(super) equal_scale: bool,
     pub(super) legend: bool,
+    /// Entries of the legend that no series of this panel has.
+    pub(super) entries: Vec<(String, Colour, Stroke)>,
 }
 
 impl Chart {
@@ -40,6 +43,7 @@ impl Chart {
             height: 110.0,
             equal_scale: false,
             legend: true,
+            entries: Vec::new(),
         }
     }
 
@@ -95,6 +99,13 @@ impl Chart {
     #[must_use]
     pub fn equal_scale(mut self) -> Self {
         self.equal_scale = true;
+        self
+    }
+
+    /// An entry of the legend for lines that other panels have.
+    #[must_use]
+    pub fn entry(mut self, label: &str, colour: Colour, stroke: Stroke) -> Self {
+        self.entries.push((label.into(), colour, stroke));
         self
     }
 

@@ -74,8 +74,8 @@ impl Chart {
     /// Width of the widest tick label, and the rest of what is left of the frame.
     pub(super) fn left_margin(&self) -> f64 {
         let y = self.y_ruler();
-        let widest = y
-            .ticks(most_ticks(self.height, 18.0))
+        let widest = (self.y)
+            .ticks_on(&y, most_ticks(self.height, 18.0))
             .iter()
             .map(|tick| text_width(&tick.label, TICK))
             .fold(0.0, f64::max);
@@ -234,17 +234,17 @@ impl Frame {
         ])
     }
 
-    fn ticks(&self) -> [Vec<Tick>; 2] {
+    fn ticks(&self, chart: &Chart) -> [Vec<Tick>; 2] {
         [
-            self.x.ticks(most_ticks(self.width, 32.0)),
-            self.y.ticks(most_ticks(self.height, 18.0)),
+            chart.x.ticks_on(&self.x, most_ticks(self.width, 32.0)),
+            chart.y.ticks_on(&self.y, most_ticks(self.height, 18.0)),
         ]
     }
 
     /// Faint lines at the ticks of y; boundaries of segments.
     fn grid(&self, canvas: &mut Canvas, chart: &Chart) {
         let right = self.left + self.width;
-        let [_, ticks] = self.ticks();
+        let [_, ticks] = self.ticks(chart);
         for tick in ticks.iter().filter(|tick| !tick.label.is_empty()) {
             if let Some([_, y]) = self.place([self.x.low, tick.value]) {
                 canvas.path(
@@ -265,7 +265,7 @@ impl Frame {
 
     fn axes(&self, canvas: &mut Canvas, chart: &Chart) {
         let bottom = self.top + self.height;
-        let [x_ticks, y_ticks] = self.ticks();
+        let [x_ticks, y_ticks] = self.ticks(chart);
         let length = |tick: &Tick| if tick.label.is_empty() { 1.5 } else { 3.0 };
         for tick in &x_ticks {
             if let Some([x, _]) = self.place([tick.value, self.y.low]) {

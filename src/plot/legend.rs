@@ -61,6 +61,14 @@ impl Legend {
                 area: false,
             });
         }
+        entries.extend(chart.entries.iter().map(|(label, colour, stroke)| Entry {
+            label: label.clone(),
+            colour: *colour,
+            stroke: *stroke,
+            width: 0.9,
+            marker: None,
+            area: false,
+        }));
         let mut rows: Vec<Vec<(f64, Entry)>> = Vec::new();
         let mut end = f64::INFINITY;
         for entry in entries {

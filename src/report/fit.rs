@@ -1,114 +1,170 @@
 //! What `simulate --fit` leaves behind: `fit.md`, which is also printed, and `fit.json`.
 
-use super::{Build, to_json};
+use super::{Build, Sheet, to_json};
 use crate::simulate::fit::{Comparison, Fit, Fitted, Scale};
-use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
-use std::path::PathBuf;
 
 /// Hypotheses about a platform, each fitted to the same measurements.
 #[derive(Debug, Clone)]
-pub struct FitReport<'a> {
+pub struct FitReport {
     /// Name of the fit.
-    pub name: &'a str,
+    pub name: String,
     /// Path and text of its file.
-    pub file: (&'a str, &'a str),
+    pub file: (String, String),
     /// What each experiment played, in words.
-    pub plans: &'a [(String, String)],
+    pub plans: Vec<(String, String)>,
     /// Differences that count one.
     pub scale: Scale,
     /// The platform as it stands in its file.
-    pub unfitted: &'a [Comparison],
+    pub unfitted: Vec<Comparison>,
     /// Its residual.
     pub unfitted_residual: f64,
     /// Hypotheses by name.
-    pub fits: &'a [(String, Fit)],
+    pub fits: Vec<(String, Fit)>,
 }
 
-impl FitReport<'_> {
+impl FitReport {
     /// Tables and findings in Markdown.
     pub fn markdown(&self) -> String {
         let mut text = format!(
             "Platform parameters by least squares: {}\n\n\
              Residuals are root mean squares in units of {} and {}; signs are not published, so \
-             that magnitudes\nare compared.\n\n",
+             that magnitudes\nare compared. Reduced: divided by the numbers measured less those free \
+             instead of all. ✓: within one\nunit of what was measured.\n\n",
             self.name,
             shown(true, self.scale.attitude),
             shown(false, self.scale.length)
         );
-        for (experiment, plan) in self.plans {
+        for (experiment, plan) in &self.plans {
             text.push_str(&format!("- {experiment}: {plan}\n"));
         }
-        text.push_str(&format!("\n{}\n", self.table()));
-        for (name, fit) in self.fits {
-            let [starts, near] = fit.starts;
-            text.push_str(&format!(
-                "\n{name}: residual {:.2}, {near} of {starts} starts end there\n\n{}\n",
-                fit.residual,
-                parameters(&fit.parameters)
-            ));
-        }
-        text.push_str(&format!("\n{}\n", self.findings()));
+        text.push_str(&format!(
+            "\n{}\n{}\n{}\n",
+            self.simulated().markdown(),
+            self.parameters().markdown(),
+            self.findings()
+        ));
         text
     }
 
-    /// One row a hypothesis, one column a measurement.
-    fn table(&self) -> Table {
-        let mut table = Table::new();
-        let columns = self
-            .unfitted
-            .iter()
-            .map(|c| format!("{} {}", c.experiment, c.what));
-        let header = ["", "free", "residual"].map(String::from);
-        table
-            .load_style(presets::ASCII_MARKDOWN)
-            .set_header(header.into_iter().chain(columns));
-        let measured = self.unfitted.iter().map(|c| shown(c.angle, c.measured));
-        let row = ["measured", "", ""].map(String::from);
-        table.add_row(row.into_iter().chain(measured));
-        let mut add = |name: &str, free: usize, residual: f64, found: &[Comparison]| {
-            let row = [name.into(), free.to_string(), format!("{residual:.2}")];
-            let simulated = found.iter().map(|c| shown(c.angle, c.simulated));
-            table.add_row(row.into_iter().chain(simulated));
+    /// The hypothesis with the smallest reduced residual, which numbers that are free are counted
+    /// against.
+    pub fn best(&self) -> Option<&(String, Fit)> {
+        let fits = self.fits.iter();
+        fits.min_by(|a, b| reduced(&a.1).total_cmp(&reduced(&b.1)))
+    }
+
+    /// The same among those with one platform for all experiments.
+    pub fn best_common(&self) -> Option<&(String, Fit)> {
+        let common = |(_, fit): &&(String, Fit)| {
+            let mut parameters = fit.parameters.iter();
+            parameters.all(|fitted| fitted.experiment.is_none())
         };
-        add("as it is", 0, self.unfitted_residual, self.unfitted);
-        for (name, fit) in self.fits {
-            add(name, fit.parameters.len(), fit.residual, &fit.comparisons);
+        let fits = self.fits.iter().filter(common);
+        fits.min_by(|a, b| reduced(&a.1).total_cmp(&reduced(&b.1)))
+    }
+
+    /// Difference of the magnitudes, in units of the scale.
+    fn gap(&self, comparison: &Comparison) -> f64 {
+        let unit = if comparison.angle {
+            self.scale.attitude
+        } else {
+            self.scale.length
+        };
+        (comparison.simulated.abs() - comparison.measured) / unit
+    }
+
+    /// One row a hypothesis, one column a measurement.
+    fn simulated(&self) -> Sheet {
+        let mut header = ["", "free", "residual", "reduced", "starts that end there"]
+            .map(String::from)
+            .to_vec();
+        let columns = self.unfitted.iter();
+        header.extend(columns.map(|c| format!("{} {}", c.experiment, c.what)));
+        let mut sheet = Sheet::new(&header).words(1);
+        let mut add = |start: [String; 5], figures: Vec<String>| {
+            sheet.row(start.into_iter().chain(figures).collect());
+        };
+        let cells = |found: &[Comparison]| -> Vec<String> {
+            let cell = |c: &Comparison| {
+                let mark = if self.gap(c).abs() <= 1.0 { " ✓" } else { "" };
+                format!("{}{mark}", shown(c.angle, c.simulated))
+            };
+            found.iter().map(cell).collect()
+        };
+        let measured = self.unfitted.iter().map(|c| shown(c.angle, c.measured));
+        let start = ["measured", "", "", "", ""].map(String::from);
+        add(start, measured.collect());
+        let residual = format!("{:.2}", self.unfitted_residual);
+        let start = [
+            "as it is".into(),
+            "0".into(),
+            residual.clone(),
+            residual,
+            String::new(),
+        ];
+        add(start, cells(&self.unfitted));
+        for (name, fit) in &self.fits {
+            let [starts, near] = fit.starts;
+            let start = [
+                name.clone(),
+                fit.parameters.len().to_string(),
+                format!("{:.2}", fit.residual),
+                format!("{:.2}", reduced(fit)),
+                format!("{near} of {starts}"),
+            ];
+            add(start, cells(&fit.comparisons));
         }
-        align(&mut table);
-        table
+        sheet
+    }
+
+    /// One row a fitted number.
+    fn parameters(&self) -> Sheet {
+        let mut sheet =
+            Sheet::new(&["hypothesis", "parameter", "value", "±", "unit", "range"]).words(2);
+        for (name, fit) in &self.fits {
+            for f in &fit.parameters {
+                let key = match &f.experiment {
+                    Some(experiment) => format!("{} ({experiment})", f.parameter.key),
+                    None => f.parameter.key.into(),
+                };
+                let error = match f.error {
+                    _ if f.at_bound => "at its bound".into(),
+                    Some(error) => format!("{error:.1e}"),
+                    None => "not determined".into(),
+                };
+                let [min, max] = f.range;
+                sheet.row(vec![
+                    name.clone(),
+                    key,
+                    format!("{:.3e}", f.value),
+                    error,
+                    f.parameter.unit.into(),
+                    format!("{min:e} to {max:e}"),
+                ]);
+            }
+        }
+        sheet
     }
 
     /// What the best hypothesis leaves unexplained, and which measurements none reaches.
     fn findings(&self) -> String {
-        let Some((name, best)) = self
-            .fits
-            .iter()
-            .min_by(|a, b| a.1.residual.total_cmp(&b.1.residual))
-        else {
+        let Some((name, best)) = self.best() else {
             return String::new();
         };
         let data = best.comparisons.len();
         let mut text = format!(
-            "Best: {name}, residual {:.2} with {} numbers free for {data} measured.",
-            best.residual,
+            "Best: {name}, reduced residual {:.2} with {} numbers free for {data} measured.",
+            reduced(best),
             best.parameters.len()
         );
-        let unit = |c: &Comparison| {
-            if c.angle {
-                self.scale.attitude
-            } else {
-                self.scale.length
-            }
-        };
-        let gap = |c: &Comparison| (c.simulated.abs() - c.measured) / unit(c);
         let left: Vec<String> = best
             .comparisons
             .iter()
-            .filter(|c| gap(c).abs() > 0.5)
+            .filter(|c| self.gap(c).abs() > 1.0)
             .map(|c| {
                 format!(
-                    "{} {}: measured {}, simulated {}",
+                    "- {} {}: measured {}, simulated {}\n",
                     c.experiment,
                     c.what,
                     shown(c.angle, c.measured),
@@ -117,38 +173,42 @@ impl FitReport<'_> {
             })
             .collect();
         if left.is_empty() {
-            text.push_str(&format!(
-                " It meets every measurement within {} and {}.",
-                shown(true, 0.5 * self.scale.attitude),
-                shown(false, 0.5 * self.scale.length)
-            ));
+            text.push_str(" It meets every measurement within one unit.\n");
         } else {
-            text.push_str(" It leaves unexplained:\n\n");
-            for line in left {
-                text.push_str(&format!("- {line}\n"));
-            }
+            text.push_str(&format!(" It leaves unexplained:\n\n{}", left.concat()));
         }
-        let bounded: Vec<&str> = best
-            .parameters
-            .iter()
-            .filter(|p| p.at_bound)
-            .map(|p| p.parameter.key)
+        let missed: Vec<String> = (self.unfitted.iter().enumerate())
+            .filter(|(k, _)| {
+                let reaches =
+                    |(_, fit): &(String, Fit)| self.gap(&fit.comparisons[*k]).abs() <= 1.0;
+                !self.fits.iter().any(reaches)
+            })
+            .map(|(_, c)| format!("{} {}", c.experiment, c.what))
             .collect();
+        let missed = match missed.is_empty() {
+            true => "none".into(),
+            false => missed.join(", "),
+        };
+        text.push_str(&format!(
+            "\nMeasurements that no hypothesis reaches within one unit: {missed}.\n"
+        ));
+        let named = |chosen: &dyn Fn(&Fitted) -> bool| -> Vec<&str> {
+            let chosen = best.parameters.iter().filter(|f| chosen(f));
+            chosen.map(|f| f.parameter.key).collect()
+        };
+        let bounded = named(&|f| f.at_bound);
         if !bounded.is_empty() {
-            let list = bounded.join(", ");
             text.push_str(&format!(
-                "\nAt the end of the range thought possible: {list}.\n"
+                "\nOf the best, at the end of the range thought possible: {}.\n",
+                bounded.join(", ")
             ));
         }
-        let loose: Vec<&str> = best
-            .parameters
-            .iter()
-            .filter(|p| !p.at_bound && p.error.is_none())
-            .map(|p| p.parameter.key)
-            .collect();
+        let loose = named(&|f| !f.at_bound && f.error.is_none());
         if !loose.is_empty() {
-            let list = loose.join(", ");
-            text.push_str(&format!("\nNot determined by the measurements: {list}.\n"));
+            text.push_str(&format!(
+                "\nOf the best, not determined by the measurements: {}.\n",
+                loose.join(", ")
+            ));
         }
         text.trim_end().into()
     }
@@ -158,10 +218,10 @@ impl FitReport<'_> {
     /// # Errors
     /// None that is expected: all keys are strings.
     pub fn json(&self) -> serde_json::Result<String> {
-        let (path, text) = self.file;
+        let (path, text) = &self.file;
         to_json(&Document {
             schema: 1,
-            name: self.name,
+            name: &self.name,
             version: Build::VERSION,
             path,
             text,
@@ -170,7 +230,7 @@ impl FitReport<'_> {
             unit_length: self.scale.length,
             unfitted: Unfitted {
                 residual: self.unfitted_residual,
-                comparisons: comparisons(self.unfitted),
+                comparisons: comparisons(&self.unfitted),
             },
             hypotheses: self
                 .fits
@@ -178,6 +238,7 @@ impl FitReport<'_> {
                 .map(|(name, fit)| HypothesisRecord {
                     name,
                     residual: fit.residual,
+                    reduced_residual: reduced(fit),
                     starts: fit.starts[0],
                     starts_that_end_there: fit.starts[1],
                     simulations: fit.simulations,
@@ -187,54 +248,13 @@ impl FitReport<'_> {
                 .collect(),
         })
     }
-
-    /// The text for a terminal, with the files that were written.
-    pub fn summary(&self, files: &[PathBuf]) -> String {
-        let mut text = self.markdown();
-        for file in files {
-            text.push_str(&format!("\nwritten {}", file.display()));
-        }
-        text.push('\n');
-        text
-    }
 }
 
-fn parameters(fitted: &[Fitted]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
-        "parameter",
-        "value",
-        "±",
-        "unit",
-        "range",
-    ]);
-    for f in fitted {
-        let key = match &f.experiment {
-            Some(experiment) => format!("{} ({experiment})", f.parameter.key),
-            None => f.parameter.key.into(),
-        };
-        let error = match f.error {
-            _ if f.at_bound => "at its bound".into(),
-            Some(error) => format!("{error:.1e}"),
-            None => "not determined".into(),
-        };
-        let [min, max] = f.range;
-        table.add_row([
-            key,
-            format!("{:.3e}", f.value),
-            error,
-            f.parameter.unit.into(),
-            format!("{min:e} to {max:e}"),
-        ]);
-    }
-    align(&mut table);
-    table
-}
-
-fn align(table: &mut Table) {
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
+/// The residual, its squares divided by the numbers measured less those free instead of all.
+pub fn reduced(fit: &Fit) -> f64 {
+    let count = fit.comparisons.len();
+    let left = count.saturating_sub(fit.parameters.len()).max(1);
+    fit.residual * (count as f64 / left as f64).sqrt()
 }
 
 /// An angle in degrees or a length in centimetres, as the paper gives them.
@@ -270,6 +290,7 @@ struct Unfitted<'a> {
 struct HypothesisRecord<'a> {
     name: &'a str,
     residual: f64,
+    reduced_residual: f64,
     starts: usize,
     starts_that_end_there: usize,
     simulations: usize,

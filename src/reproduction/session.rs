@@ -2,9 +2,11 @@
 
 use crate::config::ConfigError;
 use crate::nlp::Control;
-use crate::planner::{Event, Plan, PlanError, Planner, Problem, Status};
+use crate::planner::front::Front;
+use crate::planner::{Comparison, Event, Method, Plan, PlanError, Planner, Problem, Status};
 use crate::refine::Start;
-use crate::report::OutputError;
+use crate::report::{OutputError, SolutionError};
+use crate::simulate::SimulateError;
 use rustix::time::{ClockId, clock_gettime};
 
 /// Why nothing came of it.
@@ -20,6 +22,17 @@ pub enum ReproductionError {
         title: String,
         /// Why not.
         source: PlanError,
+    },
+    /// A saved plan cannot be used.
+    #[error(transparent)]
+    Solution(#[from] SolutionError),
+    /// A plan cannot be played on the platform.
+    #[error("{name}: {source}")]
+    Simulate {
+        /// The fit file, or what was being played.
+        name: String,
+        /// Why not.
+        source: SimulateError,
     },
     /// Stopped from outside.
     #[error("interrupted: nothing further was written")]
@@ -93,22 +106,93 @@ impl<'m> Session<'m> {
         problem: &Problem,
         start: Option<&Start>,
     ) -> Result<Run, ReproductionError> {
-        self.begin(title)?;
         let began = processor_seconds();
-        let monitor = &mut *self.monitor;
-        let plan = Planner::new()
-            .plan_with(problem, start, &mut |event| monitor(Step::Event(event)))
-            .map_err(|source| ReproductionError::Plan {
-                title: title.into(),
-                source,
-            })?;
-        if plan.status == Status::Interrupted {
-            return Err(ReproductionError::Interrupted);
-        }
+        let method = Method::Collocation(problem.mesh.method);
+        let plan = self.make(method, title, problem, start)?;
         Ok(Run {
             plan,
             cpu_seconds: processor_seconds() - began,
         })
+    }
+
+    /// Plans `problem` with a fresh planner by any method.
+    ///
+    /// # Errors
+    /// Those of [`Self::plan`].
+    pub fn plan_by(
+        &mut self,
+        method: Method,
+        title: &str,
+        problem: &Problem,
+    ) -> Result<Plan, ReproductionError> {
+        self.make(method, title, problem, None)
+    }
+
+    /// Plans `problem` by every method.
+    ///
+    /// # Errors
+    /// Those of [`Self::plan`].
+    pub fn compare(&mut self, problem: &Problem) -> Result<Comparison, ReproductionError> {
+        let title = format!("{} by every planner", problem.name);
+        self.begin(&title)?;
+        let mut told = |_, event: &Event<'_>| self.show(event);
+        let found = Comparison::plan(problem, &mut told)
+            .map_err(|source| ReproductionError::Plan { title, source })?;
+        let plans = found
+            .entries
+            .iter()
+            .filter_map(|entry| entry.plan.as_ref().ok());
+        refuse_interrupted(plans)?;
+        Ok(found)
+    }
+
+    /// Plans along `front` for every factor.
+    ///
+    /// # Errors
+    /// Those of [`Self::plan`].
+    pub fn sweep(
+        &mut self,
+        name: &str,
+        front: &mut Front<'_>,
+        factors: &[f64],
+    ) -> Result<(), ReproductionError> {
+        let title = format!("{name}, base motion against joint effort");
+        self.begin(&title)?;
+        front
+            .sweep(factors, &mut |_, event| self.show(event))
+            .map_err(|source| ReproductionError::Plan { title, source })?;
+        refuse_interrupted(front.points().iter().map(|point| &point.plan))
+    }
+
+    fn make(
+        &mut self,
+        method: Method,
+        title: &str,
+        problem: &Problem,
+        start: Option<&Start>,
+    ) -> Result<Plan, ReproductionError> {
+        self.begin(title)?;
+        let monitor = &mut *self.monitor;
+        let plan = Planner::new()
+            .plan_by(method, problem, start, &mut |event| {
+                monitor(Step::Event(event))
+            })
+            .map_err(|source| ReproductionError::Plan {
+                title: title.into(),
+                source,
+            })?;
+        refuse_interrupted([&plan])?;
+        Ok(plan)
+    }
+}
+
+fn refuse_interrupted<'p>(
+    plans: impl IntoIterator<Item = &'p Plan>,
+) -> Result<(), ReproductionError> {
+    let stopped = |plan: &Plan| plan.status == Status::Interrupted;
+    match plans.into_iter().any(stopped) {
+        true => Err(ReproductionError::Interrupted),
+        false => Ok(()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::SimulateError;
 use super::dynamics::{BASE, PlanarDynamics};
+use super::parallel::in_order;
 use super::plane::PlanarBodies;
 use super::platform::Platform;
 use super::reference::{PlannedBase, Reference};
@@ -90,6 +91,16 @@ impl Player {
     /// [`SimulateError::Stuck`] where the motion runs away.
     pub fn run(&self, index: usize) -> Result<Run, SimulateError> {
         run::play(self, index)
+    }
+
+    /// Plays all runs of the platform's `repeats`, several at a time.
+    ///
+    /// # Errors
+    /// [`SimulateError::Stuck`] where the motion of one runs away.
+    pub fn runs(&self) -> Result<Vec<Run>, SimulateError> {
+        in_order(self.platform.repeats, &|index| self.run(index))
+            .into_iter()
+            .collect()
     }
 
     /// The platform.

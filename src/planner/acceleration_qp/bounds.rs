@@ -41,7 +41,7 @@ impl Joint {
 
 /// Share of the control's limit that stopping may count on; the rest is for what the Coriolis
 /// term does in the meantime.
-const BRAKE: f64 = 0.5;
+pub(super) const BRAKE: f64 = 0.5;
 
 /// Largest acceleration towards a limit `room` away, at `rate` towards it, after which the joint
 /// still stops in front of it with a deceleration of a share of `brake`.
@@ -66,7 +66,7 @@ fn shifted(bounds: &Interval, by: f64) -> Interval {
 }
 
 /// What both allow, or the end of `first` nearest to `second` where they are apart.
-fn narrowed(first: Interval, second: Interval) -> Interval {
+pub(super) fn narrowed(first: Interval, second: Interval) -> Interval {
     Interval::new(first.clamp(second.lower), first.clamp(second.upper))
 }
 

@@ -11,19 +11,26 @@
 //! attitude it started with. That part is ours, as are the weights: those of the problem's cost on
 //! η̇ and θ̇, the base's fading with the square of the time that is left, as both references grow
 //! with its inverse and the two goals would fight to the end.
+//!
+//! So that the goal is reached under limits as well, every step keeps each joint where it can still
+//! arrive at rest in the steps that follow, within its limits on rate and half those on control;
+//! the other half is for what the Coriolis term does in the meantime. Where that is not enough the
+//! whole control counts. What a joint then cannot reach it misses, and the plan says so.
 
+mod arrival;
 mod base;
 mod bounds;
 mod quadratic;
 
-use super::joint_motion::{JointMotion, assemble, duration, goal_missed, rest_to_rest};
+use super::joint_motion::{JointMotion, THERE, assemble, duration, goal_missed, rest_to_rest};
 use super::{Event, FreeFloating, Method, Plan, PlanError, Problem, Status};
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::Space;
 use crate::nlp::Control;
 use crate::ocp::Interval;
+use arrival::Way;
 use base::Affine;
-use bounds::Joint;
+use bounds::{BRAKE, Joint, narrowed};
 use quadratic::Quadratic;
 use std::time;
 
@@ -33,9 +40,6 @@ const STEPS: usize = 200;
 const FADE: i32 = 2;
 /// Smallest weight of a joint relative to the largest: all joints have a goal to reach.
 const LEAST: f64 = 1e-3;
-
-/// How near to its goal, rad or m, a joint has to end: steps that limits cut short leave a rest.
-const REACHED: f64 = 1e-4;
 
 /// Plans `problem`'s task step by step.
 ///
@@ -99,7 +103,7 @@ fn run<Sp: Space>(
         plan.diagnosis = None;
     } else {
         let why = "acceleration-qp does not reach the goal within the limits";
-        goal_missed(problem, &mut plan, REACHED, why.into());
+        goal_missed(problem, &mut plan, THERE, why.into());
     }
     Ok(plan)
 }
@@ -162,7 +166,7 @@ impl<'a, Sp: Space> Stepper<'a, Sp> {
         }
         let quadratic = Quadratic {
             squares,
-            bounds: self.bounds(state, &affine, h),
+            bounds: self.bounds(state, &affine, left, h),
             rows: self.rows(&affine, h),
         };
         let clamped = || -> Vec<f64> {
@@ -176,8 +180,9 @@ impl<'a, Sp: Space> Stepper<'a, Sp> {
         quadratic.solve().unwrap_or_else(clamped)
     }
 
-    fn bounds(&self, state: &State, affine: &Affine, h: f64) -> Vec<Interval> {
+    fn bounds(&self, state: &State, affine: &Affine, left: usize, h: f64) -> Vec<Interval> {
         let limits = &self.problem.limits;
+        let goal = &self.problem.task.final_joints;
         (0..state.q.len())
             .map(|j| {
                 let joint = Joint {
@@ -188,7 +193,25 @@ impl<'a, Sp: Space> Stepper<'a, Sp> {
                     velocity: limits.joint_velocity[j],
                     control: limits.control[j],
                 };
-                joint.acceleration(h)
+                let way = Way {
+                    left: goal[j] - joint.q,
+                    rate: joint.rate,
+                    steps: left,
+                    h,
+                };
+                let arriving = |share: f64| {
+                    let Interval { lower, upper } = joint.control;
+                    // Without a limit on the control, from one end of the rates to the other.
+                    let most = (joint.velocity.upper - joint.velocity.lower) / h;
+                    let limits =
+                        Interval::new((share * lower).max(-most), (share * upper).min(most));
+                    way.arriving(&limits, &joint.velocity)
+                };
+                let allowed = joint.acceleration(h);
+                match arriving(BRAKE).or_else(|| arriving(1.0)) {
+                    Some(arriving) => narrowed(allowed, arriving),
+                    None => allowed,
+                }
             })
             .collect()
     }

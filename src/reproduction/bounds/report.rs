@@ -4,7 +4,7 @@ use super::{Connection, CurvatureBound, Grid, Reached, largest_final_attitude};
 use crate::config::ProblemFile;
 use crate::ocp::Interval;
 use crate::planner::{Plan, Start, straight_line};
-use crate::reproduction::figures::{Case, Motion};
+use crate::reproduction::figures::{Case, Extremes};
 use crate::reproduction::{ReproductionError, Session};
 use serde::Serialize;
 
@@ -130,12 +130,7 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
         box_loop: f64::NAN,
         parts: [f64::NAN; 2],
     });
-    let largest = Motion::new(&case).map_or(f64::NAN, |mut motion| {
-        let samples = motion.samples();
-        samples
-            .iter()
-            .fold(0.0, |m: f64, s| m.max(s.attitude.abs()))
-    });
+    let largest = Extremes::of(&case).map_or(f64::NAN, |found| found.largest_attitude);
     let last = case.iterations.last();
     let error = last.map_or(f64::NAN, |record| record.max_error);
     let evidence = Bounds {

@@ -67,13 +67,15 @@ pub fn comparison(cases: &[(&str, &Case)]) -> Option<Figure> {
             joints = joints.series(line("", &|sample| sample.joints[1]).stroke(Stroke::Dotted));
         }
     }
-    let at = [0.985 * duration, duration];
+    // The first of two marks stands a little earlier, so that it is seen which is which.
+    let at = [0.97 * duration, duration];
     for measured in MEASURED {
-        let marks = |values: &[f64; 2]| {
-            Series::scatter(measured.name, &at, values, measured.marker).colour(measured.colour)
+        let marks = |what: &str, values: &[f64; 2]| {
+            let label = format!("{}: {what}", measured.name);
+            Series::scatter(&label, &at, values, measured.marker).colour(measured.colour)
         };
-        attitude = attitude.series(marks(&measured.attitude));
-        displacement = displacement.series(marks(&measured.displacement));
+        attitude = attitude.series(marks("largest, final", &measured.attitude));
+        displacement = displacement.series(marks("x, y", &measured.displacement));
     }
     let limit = cases.first()?.1.problem.limits.joint_position.first()?;
     let limits = [limit.lower, limit.upper].map(f64::to_degrees);

@@ -2,25 +2,25 @@
 //!
 //! The published case has no solution. Figures are drawn for the relaxed and the smooth case,
 //! some also for the *bounded* one: as published, but with its bounds on the base attitude widened to
-//! where a motion exists. Titles say which.
+//! where a motion exists, and for a base that turns harder. Titles say which.
 
 mod comparison;
 mod errors;
-mod matpm;
+mod extremes;
 mod motion;
 mod sequence;
 mod states;
 
 pub use comparison::comparison;
-pub use errors::errors;
-pub use matpm::matpm;
+pub use errors::{errors, worst};
+pub use extremes::Extremes;
 pub use motion::{Motion, Sample};
 pub use sequence::sequence;
 pub use states::states;
 
-use super::{CASES, ReproductionError, Session};
+use super::{CASES, HEAVY, ReproductionError, Session};
 use crate::config::ProblemFile;
-use crate::planner::{Plan, Problem};
+use crate::planner::{Method, Plan, Problem};
 use crate::plot::Figure;
 use crate::refine::Record;
 use crate::transcription::Discretization;
@@ -28,7 +28,7 @@ use crate::transcription::Discretization;
 /// A problem, its plan, and what a title calls it.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// "relaxed", "smooth", "bounded"; also part of file names.
+    /// "relaxed", "smooth", "bounded", "heavy-base"; also part of file names.
     pub name: &'static str,
     /// The problem.
     pub problem: Problem,
@@ -55,8 +55,12 @@ impl Case {
 pub struct Plans {
     /// A-RPM on the relaxed and on the smooth case.
     pub cases: Vec<Case>,
-    /// MATPM on the relaxed case; only for planar arms.
-    pub matpm: Option<Case>,
+    /// A-RPM on the published case with a base that turns harder.
+    pub heavy: Case,
+    /// MATPM on the relaxed case.
+    pub matpm: Case,
+    /// MATPM with a base that turns harder.
+    pub heavy_matpm: Case,
 }
 
 impl Plans {
@@ -71,8 +75,20 @@ impl Plans {
             let plan = session.plan(file, &problem, None)?.plan;
             cases.push(Case::new(file.trim_start_matches("table1-"), problem, plan));
         }
-        let matpm = matpm(&cases[0].problem);
-        Ok(Self { cases, matpm })
+        let problem = cases[0].problem.clone();
+        let plan = session.plan_by(Method::Matpm, "matpm", &problem)?;
+        let matpm = Case::new("matpm", problem, plan);
+        let problem = ProblemFile::shipped(HEAVY)?.problem;
+        let plan = session.plan(HEAVY, &problem, None)?.plan;
+        let heavy = Case::new("heavy-base", problem.clone(), plan);
+        let plan = session.plan_by(Method::Matpm, "matpm", &problem)?;
+        let heavy_matpm = Case::new("matpm", problem, plan);
+        Ok(Self {
+            cases,
+            heavy,
+            matpm,
+            heavy_matpm,
+        })
     }
 }
 
@@ -97,23 +113,26 @@ pub fn all(plans: &Plans, bounded: &Case) -> Vec<Drawn> {
             figure,
         }));
     };
-    for case in plans.cases.iter().chain([bounded]) {
+    for case in plans.cases.iter().chain([bounded, &plans.heavy]) {
         add(
             format!("figure2-{}", case.name),
             format!(
                 "Figure 2, {}: (a) base attitude and joint angles, (b) angular velocities, \
-                 (c) base displacement. Grey lines are the boundaries of the segments.",
-                described(case)
+                 (c) base displacement. Grey lines are the boundaries of the segments. {}",
+                described(case),
+                Extremes::of(case).map_or_else(String::new, |found| found.describe())
             ),
             states(case),
         );
     }
     for case in &plans.cases {
+        let (error, at) = worst(&case.iterations[0], case.trajectory.duration);
         add(
             format!("figure3-{}", case.name),
             format!(
                 "Figure 3, {}: largest error (28) of every state in every segment at each mesh \
-                 iteration.",
+                 iteration, all segments drawn equally wide. In the first iteration it is \
+                 {error:.3e}, in the segment around t = {at:.0} s.",
                 described(case)
             ),
             Some(errors(case)),
@@ -131,17 +150,18 @@ pub fn all(plans: &Plans, bounded: &Case) -> Vec<Drawn> {
             sequence(case, "A-RPM"),
         );
     }
-    let mut compared = vec![("A-RPM, relaxed", relaxed), ("A-RPM, bounded", bounded)];
-    if let Some(matpm) = &plans.matpm {
-        add(
-            "figure5".into(),
-            "Figure 5: motion sequence under MATPM, to scale. The dashed outline is the base at \
-             the start."
-                .into(),
-            sequence(matpm, "MATPM"),
-        );
-        compared.push(("MATPM", matpm));
-    }
+    add(
+        "figure5".into(),
+        "Figure 5: motion sequence under MATPM, to scale. The dashed outline is the base at the \
+         start."
+            .into(),
+        sequence(&plans.matpm, "MATPM"),
+    );
+    let compared = [
+        ("A-RPM, relaxed", relaxed),
+        ("A-RPM, bounded", bounded),
+        ("MATPM", &plans.matpm),
+    ];
     add(
         "figure6".into(),
         "Figure 6: (a) attitude and (b) displacement of the base, (c) joint angles, as planned. \
@@ -150,11 +170,24 @@ pub fn all(plans: &Plans, bounded: &Case) -> Vec<Drawn> {
             .into(),
         comparison(&compared),
     );
+    let compared = [
+        ("A-RPM, heavy-base", &plans.heavy),
+        ("MATPM, heavy-base", &plans.heavy_matpm),
+    ];
+    add(
+        "figure6-heavy-base".into(),
+        format!("Figure 6, {}: as above.", described(&plans.heavy)),
+        comparison(&compared),
+    );
     drawn
 }
 
 /// The case in a caption.
 fn described(case: &Case) -> String {
+    if case.name == "heavy-base" {
+        let spin = case.problem.robot.base().inertia.rotational()[(2, 2)];
+        return format!("heavy-base case (as published, but with a base of {spin} kg m²)");
+    }
     let bound = case.problem.limits.base_attitude.first();
     match bound.filter(|bound| !bound.is_free()) {
         Some(bound) => format!(

@@ -2,6 +2,7 @@
 
 use crate::planner::{Problem, Status};
 use crate::refine::Method;
+use crate::report::{exact, short};
 use crate::reproduction::{ReproductionError, Run, Session};
 use serde::Serialize;
 
@@ -76,9 +77,42 @@ impl Measured {
         })
     }
 
+    /// Names of [`Self::cells`].
+    pub(super) const COLUMNS: [&str; 11] = [
+        "reached",
+        "status",
+        "points",
+        "segments",
+        "solves",
+        "nlp_iterations",
+        "seconds",
+        "cpu_seconds",
+        "max_error",
+        "quadrature_error",
+        "objective",
+    ];
+
+    /// Every figure with all its digits.
+    pub(super) fn cells(&self) -> [String; 11] {
+        let optional = |value: Option<f64>| exact(value.unwrap_or(f64::NAN));
+        [
+            self.reached.to_string(),
+            self.status.into(),
+            self.points.to_string(),
+            self.segments.to_string(),
+            self.solves.to_string(),
+            self.nlp_iterations.to_string(),
+            exact(self.seconds),
+            exact(self.cpu_seconds),
+            optional(self.max_error),
+            optional(self.quadrature_error),
+            optional(self.objective),
+        ]
+    }
+
     /// The error, marked where it is above the tolerance.
     pub(super) fn error_cell(&self) -> String {
-        let error = crate::reproduction::sheet::short(self.max_error.unwrap_or(f64::NAN));
+        let error = short(self.max_error.unwrap_or(f64::NAN));
         if self.reached {
             error
         } else {

@@ -4,8 +4,7 @@ use super::Measured;
 use crate::config::ProblemFile;
 use crate::nlp::ipopt;
 use crate::refine::Method::{Adaptive, Global};
-use crate::report::Build;
-use crate::reproduction::sheet::{Sheet, exact, short};
+use crate::report::{Build, Sheet, exact, short};
 use crate::reproduction::{CASES, ReproductionError, Session};
 use serde::Serialize;
 
@@ -155,55 +154,31 @@ fn table(rows: &[Row]) -> Sheet {
 
 /// Every figure with all its digits.
 pub fn sheet(rows: &[Row]) -> Sheet {
-    let mut sheet = Sheet::new(&[
-        "problem",
-        "tolerance",
-        "method",
-        "reached",
-        "status",
-        "points",
-        "segments",
-        "solves",
-        "nlp_iterations",
-        "seconds",
-        "cpu_seconds",
-        "max_error",
-        "quadrature_error",
-        "objective",
-        "optimum",
-        "distance",
+    let published = [
         "published_points",
         "published_seconds",
         "published_max_error",
-    ]);
+    ];
+    let mut header = vec!["problem", "tolerance", "method"];
+    header.extend(Measured::COLUMNS);
+    header.extend(["optimum", "distance"].into_iter().chain(published));
+    let mut sheet = Sheet::new(&header);
     for row in rows {
-        let Row {
-            measured,
-            published,
-            ..
-        } = row;
-        let optional = |value: Option<f64>| exact(value.unwrap_or(f64::NAN));
-        sheet.row(vec![
+        let published = &row.published;
+        let mut cells = vec![
             row.problem.into(),
             exact(row.tolerance),
-            measured.method.into(),
-            measured.reached.to_string(),
-            measured.status.into(),
-            measured.points.to_string(),
-            measured.segments.to_string(),
-            measured.solves.to_string(),
-            measured.nlp_iterations.to_string(),
-            exact(measured.seconds),
-            exact(measured.cpu_seconds),
-            optional(measured.max_error),
-            optional(measured.quadrature_error),
-            optional(measured.objective),
+            row.measured.method.into(),
+        ];
+        cells.extend(row.measured.cells());
+        cells.extend([
             exact(row.optimum),
-            optional(row.distance),
+            exact(row.distance.unwrap_or(f64::NAN)),
             published.points.to_string(),
             exact(published.seconds),
             exact(published.max_error),
         ]);
+        sheet.row(cells);
     }
     sheet
 }

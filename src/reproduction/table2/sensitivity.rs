@@ -3,7 +3,7 @@
 use super::Measured;
 use crate::config::ProblemFile;
 use crate::refine::Method;
-use crate::reproduction::sheet::{Sheet, exact};
+use crate::report::{Sheet, exact};
 use crate::reproduction::{CASES, ReproductionError, Session};
 use serde::Serialize;
 
@@ -63,8 +63,7 @@ pub fn sensitivity_markdown(rows: &[SensitivityRow]) -> String {
     for problem in rows.chunk_by(|a, b| a.problem == b.problem) {
         let mut header = vec!["λ₁".to_string(), "λ₂".to_string()];
         header.extend(R_MAX.iter().map(|r| format!("r_max = {r}")));
-        let names: Vec<&str> = header.iter().map(String::as_str).collect();
-        let mut sheet = Sheet::new(&names);
+        let mut sheet = Sheet::new(&header);
         let same = |a: &SensitivityRow, b: &SensitivityRow| {
             a.lambda1 == b.lambda1 && a.lambda2 == b.lambda2
         };
@@ -93,34 +92,14 @@ pub fn sensitivity_markdown(rows: &[SensitivityRow]) -> String {
 
 /// Every figure with all its digits.
 pub fn sensitivity_sheet(rows: &[SensitivityRow]) -> Sheet {
-    let mut sheet = Sheet::new(&[
-        "problem",
-        "lambda1",
-        "lambda2",
-        "r_max",
-        "reached",
-        "points",
-        "segments",
-        "solves",
-        "nlp_iterations",
-        "cpu_seconds",
-        "max_error",
-    ]);
+    let mut header = vec!["problem", "lambda1", "lambda2", "r_max"];
+    header.extend(Measured::COLUMNS);
+    let mut sheet = Sheet::new(&header);
     for row in rows {
-        let measured = &row.measured;
-        sheet.row(vec![
-            row.problem.into(),
-            exact(row.lambda1),
-            exact(row.lambda2),
-            exact(row.r_max),
-            measured.reached.to_string(),
-            measured.points.to_string(),
-            measured.segments.to_string(),
-            measured.solves.to_string(),
-            measured.nlp_iterations.to_string(),
-            exact(measured.cpu_seconds),
-            exact(measured.max_error.unwrap_or(f64::NAN)),
-        ]);
+        let mut cells = vec![row.problem.into()];
+        cells.extend([row.lambda1, row.lambda2, row.r_max].map(exact));
+        cells.extend(row.measured.cells());
+        sheet.row(cells);
     }
     sheet
 }

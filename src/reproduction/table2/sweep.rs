@@ -4,7 +4,7 @@ use super::Measured;
 use crate::config::ProblemFile;
 use crate::plot::{Axis, Chart, Figure, Marker, Series, Stroke, Width};
 use crate::refine::Method::{Adaptive, Global};
-use crate::reproduction::sheet::{Sheet, exact};
+use crate::report::{Sheet, exact};
 use crate::reproduction::{ReproductionError, Session};
 use serde::Serialize;
 
@@ -114,33 +114,13 @@ pub fn sweep_markdown(rows: &[SweepRow]) -> String {
 
 /// Every figure with all its digits.
 pub fn sweep_sheet(rows: &[SweepRow]) -> Sheet {
-    let mut sheet = Sheet::new(&[
-        "control_weight",
-        "method",
-        "reached",
-        "points",
-        "segments",
-        "solves",
-        "nlp_iterations",
-        "cpu_seconds",
-        "max_error",
-        "objective",
-    ]);
+    let mut header = vec!["control_weight", "method"];
+    header.extend(Measured::COLUMNS);
+    let mut sheet = Sheet::new(&header);
     for row in rows {
-        let measured = &row.measured;
-        let optional = |value: Option<f64>| exact(value.unwrap_or(f64::NAN));
-        sheet.row(vec![
-            exact(row.control_weight),
-            measured.method.into(),
-            measured.reached.to_string(),
-            measured.points.to_string(),
-            measured.segments.to_string(),
-            measured.solves.to_string(),
-            measured.nlp_iterations.to_string(),
-            exact(measured.cpu_seconds),
-            optional(measured.max_error),
-            optional(measured.objective),
-        ]);
+        let mut cells = vec![exact(row.control_weight), row.measured.method.into()];
+        cells.extend(row.measured.cells());
+        sheet.row(cells);
     }
     sheet
 }

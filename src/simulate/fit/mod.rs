@@ -3,8 +3,10 @@
 //! | file | does |
 //! | --- | --- |
 //! | `parameter` | what of a platform can be fitted |
+//! | `hypotheses` | several sets of unknowns, each by itself |
 //! | `least_squares` | least squares within bounds |
 
+mod hypotheses;
 mod least_squares;
 mod parameter;
 
@@ -163,6 +165,18 @@ impl Experiments {
         starts: usize,
         stop: &dyn Fn() -> bool,
     ) -> Result<Fit, SimulateError> {
+        self.fit_from(platform, unknowns, starts, None, stop)
+    }
+
+    /// [`Self::fit`] with one more start, where a fit of some of the unknowns ended.
+    fn fit_from(
+        &self,
+        platform: &Platform,
+        unknowns: &[Unknown],
+        starts: usize,
+        part: Option<&Fit>,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Fit, SimulateError> {
         let exact = platform.without_noise();
         let platform = coarse(&exact);
         let simulations = RefCell::new(0);
@@ -181,16 +195,14 @@ impl Experiments {
             found.iter().map(|c| self.residual(c)).collect::<Vec<f64>>()
         });
         let mut rng = Rng::with_seed(platform.seed);
+        let mut from = vec![own.clone()];
+        from.extend((1..starts).map(|_| slots.iter().map(|_| rng.f64()).collect()));
+        from.extend(part.map(|part| self.place(unknowns, &slots, part, &own)));
         let mut ends: Vec<Minimum> = Vec::new();
-        for start in 0..starts.max(1) {
+        for (start, z) in from.into_iter().enumerate() {
             if start > 0 && stop() {
                 break;
             }
-            let z = if start == 0 {
-                own.clone()
-            } else {
-                slots.iter().map(|_| rng.f64()).collect()
-            };
             // A start from which nothing can be simulated is no start.
             if let Ok(end) = least_squares::minimise(&z, &mut residual) {
                 ends.push(end);
@@ -223,6 +235,25 @@ impl Experiments {
             }
         }
         slots
+    }
+
+    /// Where a fit of some of the unknowns ended; `own` for the others.
+    fn place(
+        &self,
+        unknowns: &[Unknown],
+        slots: &[(usize, Option<usize>)],
+        part: &Fit,
+        own: &[f64],
+    ) -> Vec<f64> {
+        let place = |(&(u, experiment), &own): (&(usize, Option<usize>), &f64)| {
+            let name = experiment.map(|e| &self.measured[e].name);
+            let unknown = &unknowns[u];
+            let same =
+                |f: &&Fitted| f.parameter == unknown.parameter && f.experiment.as_ref() == name;
+            let found = part.parameters.iter().find(same);
+            found.map_or(own, |fitted| unknown.place(fitted.value))
+        };
+        slots.iter().zip(own).map(place).collect()
     }
 
     fn platforms(&self, platform: &Platform, unknowns: &[Unknown], z: &[f64]) -> Vec<Platform> {

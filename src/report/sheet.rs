@@ -7,15 +7,24 @@ use comfy_table::{CellAlignment, Table, presets};
 pub struct Sheet {
     header: Vec<String>,
     rows: Vec<Vec<String>>,
+    /// Leading columns that are words.
+    words: usize,
 }
 
 impl Sheet {
     /// A table without rows yet.
-    pub fn new(header: &[&str]) -> Self {
+    pub fn new<S: Into<String> + Clone>(header: &[S]) -> Self {
         Self {
-            header: header.iter().map(|&cell| cell.into()).collect(),
-            rows: Vec::new(),
+            header: header.iter().cloned().map(Into::into).collect(),
+            ..Self::default()
         }
+    }
+
+    /// The first `columns` to the left, as words stand.
+    #[must_use]
+    pub fn words(mut self, columns: usize) -> Self {
+        self.words = columns;
+        self
     }
 
     /// Adds a row as long as the header.
@@ -34,14 +43,14 @@ impl Sheet {
         self.rows.is_empty()
     }
 
-    /// As Markdown, columns of numbers to the right.
+    /// As Markdown, columns padded, those of numbers to the right.
     pub fn markdown(&self) -> String {
         let mut table = Table::new();
         table
             .load_style(presets::ASCII_MARKDOWN)
             .set_header(&self.header)
             .add_rows(&self.rows);
-        for column in table.column_iter_mut() {
+        for column in table.column_iter_mut().skip(self.words) {
             column.set_cell_alignment(CellAlignment::Right);
         }
         format!("{table}\n")
@@ -72,7 +81,7 @@ impl Sheet {
 }
 
 /// A number with every digit, nothing where it is not finite.
-pub(super) fn exact(value: f64) -> String {
+pub fn exact(value: f64) -> String {
     if value.is_finite() {
         value.to_string()
     } else {
@@ -81,7 +90,7 @@ pub(super) fn exact(value: f64) -> String {
 }
 
 /// A small number for a person, a dash where it is not finite.
-pub(super) fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     if value.is_finite() {
         format!("{value:.2e}")
     } else {
