@@ -2,8 +2,9 @@
 //! built a way to call it.
 //!
 //! Every system of a solve, and the same shifted as Ipopt shifts for wrong inertia, is factorised
-//! and solved by both in turns; printed are medians over the repetitions, averaged over the
-//! systems. MUMPS is set up as Ipopt sets it up, with the ordering that is its best here.
+//! and solved some times by one and then by the other: a solve uses one of them alone, and neither
+//! is to find its memory evicted by the other. Printed are medians over the repetitions, averaged
+//! over the systems. MUMPS is set up as Ipopt sets it up, with the ordering that is its best here.
 
 use ffsm_ipopt::config::ProblemFile;
 use ffsm_ipopt::nlp::ipopt::{System, record};
@@ -180,6 +181,8 @@ fn compare(systems: &[System], library: Option<&Library>) -> [Option<Times>; 2] 
             negative[0] = found.expect("finite").negative;
             let mut x = b.clone();
             timed(&mut times[1], || factors.solve(symbolic, &mut x));
+        }
+        for _ in 0..REPETITIONS {
             if let Some(mumps) = &mumps {
                 let found = timed(&mut times[2], || mumps.call(b"mumps_factor", &mut values));
                 negative[1] = found as usize;

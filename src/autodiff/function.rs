@@ -5,7 +5,7 @@ use super::Scalar;
 /// A smooth function of `inputs()` variables with `outputs()` values, for any [`Scalar`].
 pub trait Function {
     /// Mutable scratch for one number type.
-    type Scratch<S: Scalar>;
+    type Scratch<S: Scalar>: Send;
 
     /// Number of variables.
     fn inputs(&self) -> usize;

@@ -109,7 +109,7 @@ pub struct Passage<'a, S> {
 /// points of the bounds' box; a problem with branches says so by [`Ocp::has_branches`].
 pub trait Ocp: Sync {
     /// Mutable scratch for one number type, so that nothing is allocated in the solve.
-    type Scratch<S: Scalar>;
+    type Scratch<S: Scalar>: Send;
 
     /// Quantities and bounds. Called at set-up only.
     fn formulation(&self) -> Formulation;

@@ -2,6 +2,7 @@
 
 use super::functions::{Boundary, Node};
 use super::node_derivatives::NodeDerivatives;
+use super::points::Points;
 use super::way_point::{Passage, passages};
 use super::{Layout, Patterns};
 use crate::autodiff::{Function, SparseDerivatives};
@@ -13,11 +14,9 @@ use crate::ocp::{Formulation, Ocp};
 pub(super) struct Evaluation<'a, O: Ocp> {
     layout: Layout,
     fixed_duration: f64,
-    /// Fractions of the duration of the collocation points.
-    fractions: Vec<f64>,
     pub node: Node<'a, O>,
     pub ends: Boundary<'a, O>,
-    pub node_derivatives: NodeDerivatives<'a, O>,
+    points: Points<'a, O>,
     pub end_derivatives: SparseDerivatives<Boundary<'a, O>>,
     /// Outputs of every point, by points.
     pub values: Vec<f64>,
@@ -28,7 +27,6 @@ pub(super) struct Evaluation<'a, O: Ocp> {
     pub way_points: Vec<Passage<'a, O>>,
     have_values: bool,
     have_first: bool,
-    inputs: Vec<f64>,
     end_inputs: Vec<f64>,
 }
 
@@ -49,18 +47,16 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         Self {
             way_points: passages(ocp, formulation, patterns, &layout),
             fixed_duration: formulation.duration.lower,
-            fractions,
             values: vec![0.0; layout.points * node.outputs()],
             first: vec![0.0; layout.points * node_derivatives.jacobian_nonzeros()],
+            points: Points::new(&node, node_derivatives, patterns, fractions),
             end_values: vec![0.0; ends.outputs()],
             end_first: vec![0.0; end_derivatives.jacobian_nonzeros()],
             have_values: false,
             have_first: false,
-            inputs: vec![0.0; node.inputs()],
             end_inputs: vec![0.0; ends.inputs()],
             node,
             ends,
-            node_derivatives,
             end_derivatives,
             layout,
         }
@@ -81,7 +77,12 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
 
     /// Fraction of the duration of point `k`: the derivative of its time by the duration.
     pub fn fraction(&self, k: usize) -> f64 {
-        self.fractions[k]
+        self.points.fractions()[k]
+    }
+
+    /// Derivatives of a collocation point: their structure.
+    pub fn node_derivatives(&self) -> &NodeDerivatives<'a, O> {
+        self.points.derivatives()
     }
 
     /// Outputs (f, C, ℒ) of point `k`.
@@ -92,14 +93,8 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
 
     /// Jacobian nonzeros of point `k`, output by output.
     pub fn nonzeros(&self, k: usize) -> &[f64] {
-        let width = self.node_derivatives.jacobian_nonzeros();
+        let width = self.node_derivatives().jacobian_nonzeros();
         &self.first[k * width..(k + 1) * width]
-    }
-
-    fn load(&mut self, x: &[f64], k: usize) {
-        let width = self.node.time();
-        self.inputs[..width].copy_from_slice(&x[k * width..(k + 1) * width]);
-        self.inputs[width] = self.fractions[k] * self.duration(x);
     }
 
     fn load_ends(&mut self, x: &[f64]) {
@@ -115,16 +110,12 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         if self.have_values {
             return;
         }
-        let width = self.node.outputs();
-        for k in 0..self.layout.points {
-            self.load(x, k);
-            let out = &mut self.values[k * width..(k + 1) * width];
-            self.node_derivatives.values(&self.node, &self.inputs, out);
-        }
+        let duration = self.duration(x);
+        self.points
+            .values(&self.node, x, duration, &mut self.values);
         self.load_ends(x);
         self.end_derivatives
             .values(&self.ends, &self.end_inputs, &mut self.end_values);
-        let duration = self.duration(x);
         for point in &mut self.way_points {
             point.evaluate(x, duration);
         }
@@ -136,17 +127,12 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         if self.have_first {
             return Ok(());
         }
-        let width = self.node_derivatives.jacobian_nonzeros();
-        for k in 0..self.layout.points {
-            self.load(x, k);
-            let out = &mut self.first[k * width..(k + 1) * width];
-            self.node_derivatives
-                .jacobian(&self.node, &self.inputs, out);
-        }
+        let duration = self.duration(x);
+        self.points
+            .jacobians(&self.node, x, duration, &mut self.first);
         self.load_ends(x);
         self.end_derivatives
             .jacobian(&self.ends, &self.end_inputs, &mut self.end_first);
-        let duration = self.duration(x);
         for point in &mut self.way_points {
             point.differentiate(x, duration);
         }
@@ -165,11 +151,10 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         Ok(())
     }
 
-    /// Weighted Hessian of point `k` into `out`.
-    pub fn node_hessian(&mut self, x: &[f64], k: usize, weights: &[f64], out: &mut [f64]) {
-        self.load(x, k);
-        self.node_derivatives
-            .hessian(&self.node, &self.inputs, weights, out);
+    /// Weighted Hessians of all points into `out`, `weights` being of all points as well.
+    pub fn node_hessians(&mut self, x: &[f64], weights: &[f64], out: &mut [f64]) {
+        let duration = self.duration(x);
+        self.points.hessians(&self.node, x, duration, weights, out);
     }
 
     /// Weighted Hessian of the ends into `out`.

@@ -31,8 +31,10 @@ pub(super) struct Hessian {
     duration: DurationTerms,
     half_width: Vec<f64>,
     quadrature: Vec<f64>,
+    /// Weights of every point's outputs, by points.
     weights: Vec<f64>,
-    block: Vec<f64>,
+    /// Nonzeros of every point's weighted Hessian, by points.
+    blocks: Vec<f64>,
     end_weights: Vec<f64>,
     end_block: Vec<f64>,
     by_input: Vec<f64>,
@@ -40,7 +42,7 @@ pub(super) struct Hessian {
 
 impl Hessian {
     pub fn new<O: Ocp>(layout: &Layout, mesh: &Mesh, evaluation: &Evaluation<'_, O>) -> Self {
-        let sparsity = evaluation.node_derivatives.sparsity();
+        let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let mut slots = Slots::default();
         let mut node_slots = Vec::new();
@@ -100,8 +102,8 @@ impl Hessian {
             duration,
             half_width: half_widths(mesh),
             quadrature: quadrature(mesh),
-            weights: vec![0.0; sparsity.jacobian.len()],
-            block: vec![0.0; sparsity.hessian.len()],
+            weights: vec![0.0; layout.points * sparsity.jacobian.len()],
+            blocks: vec![0.0; layout.points * sparsity.hessian.len()],
             end_weights: vec![0.0; evaluation.ends.rows + 1],
             end_block: vec![0.0; evaluation.end_derivatives.sparsity().hessian.len()],
             by_input: vec![0.0; time + 1],
@@ -120,23 +122,18 @@ impl Hessian {
     ) -> Result<(), Undefined> {
         values.fill(0.0);
         let duration = evaluation.duration(x);
-        let width = self.block.len();
+        let outputs = evaluation.node.cost() + 1;
         for k in 0..layout.points {
-            self.weigh(
-                k,
-                duration,
-                sigma,
-                multipliers,
-                layout,
-                evaluation.node.cost(),
-            );
-            evaluation.node_hessian(x, k, &self.weights, &mut self.block);
-            for (h, &slot) in self.block.iter().zip(&self.node_slots[k * width..]) {
-                if slot != usize::MAX {
-                    values[slot] += h;
-                }
+            self.weigh(k, duration, sigma, multipliers, layout, outputs);
+        }
+        evaluation.node_hessians(x, &self.weights, &mut self.blocks);
+        for (h, &slot) in self.blocks.iter().zip(&self.node_slots) {
+            if slot != usize::MAX {
+                values[slot] += h;
             }
-            if layout.free_duration {
+        }
+        if layout.free_duration {
+            for k in 0..layout.points {
                 self.duration_terms(k, duration, layout, evaluation, values);
             }
         }
@@ -173,19 +170,20 @@ impl Hessian {
         sigma: f64,
         multipliers: &[f64],
         layout: &Layout,
-        cost: usize,
+        outputs: usize,
     ) {
         let half = duration * self.half_width[k];
+        let weights = &mut self.weights[k * outputs..(k + 1) * outputs];
         let first = layout.defect(k, 0);
         let rows = &multipliers[first..first + layout.states + layout.path];
-        for (i, (weight, &multiplier)) in self.weights.iter_mut().zip(rows).enumerate() {
+        for (i, (weight, &multiplier)) in weights.iter_mut().zip(rows).enumerate() {
             *weight = if i < layout.states {
                 -half * multiplier
             } else {
                 multiplier
             };
         }
-        self.weights[cost] = sigma * duration * self.quadrature[k];
+        weights[outputs - 1] = sigma * duration * self.quadrature[k];
     }
 
     /// Second derivatives with the duration: with ψ = T·g(v, αT) + c(v, αT), where g gathers
@@ -198,24 +196,24 @@ impl Hessian {
         evaluation: &Evaluation<'_, O>,
         values: &mut [f64],
     ) {
-        let sparsity = evaluation.node_derivatives.sparsity();
+        let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let alpha = evaluation.fraction(k);
         self.by_input.fill(0.0);
+        let outputs = sparsity.jacobian.len();
+        let weights = &self.weights[k * outputs..(k + 1) * outputs];
+        let width = sparsity.hessian.len();
+        let block = &self.blocks[k * width..(k + 1) * width];
         let mut first = evaluation.nonzeros(k).iter();
         for (r, inputs) in sparsity.jacobian.iter().enumerate() {
             let scaled = !(layout.states..layout.states + layout.path).contains(&r);
-            let weight = if scaled {
-                self.weights[r] / duration
-            } else {
-                0.0
-            };
+            let weight = if scaled { weights[r] / duration } else { 0.0 };
             for (&input, d) in inputs.iter().zip(first.by_ref()) {
                 self.by_input[input] += weight * d;
             }
         }
         let mut own = 2.0 * alpha * self.by_input[time];
-        for (h, &(i, j)) in self.block.iter().zip(&sparsity.hessian) {
+        for (h, &(i, j)) in block.iter().zip(&sparsity.hessian) {
             if i == time && j == time {
                 own += alpha * alpha * h;
             } else if i == time {
@@ -234,7 +232,7 @@ impl Hessian {
 /// Inputs of point `k` with a second derivative by the duration. Path rows do not carry the factor
 /// T: they couple with it through the time alone, which the first point does not.
 fn coupled_inputs<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, k: usize) -> Vec<usize> {
-    let sparsity = evaluation.node_derivatives.sparsity();
+    let sparsity = evaluation.node_derivatives().sparsity();
     let time = evaluation.node.time();
     let path = layout.states..layout.states + layout.path;
     let scaled = (0..sparsity.jacobian.len()).filter(|r| !path.contains(r));

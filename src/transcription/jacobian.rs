@@ -76,7 +76,7 @@ impl Jacobian {
         s: usize,
         i: usize,
     ) {
-        let sparsity = evaluation.node_derivatives.sparsity();
+        let sparsity = evaluation.node_derivatives().sparsity();
         let point = mesh.start(s) + i;
         let time = evaluation.node.time();
         let mut slot = 0;
@@ -107,7 +107,7 @@ impl Jacobian {
     }
 
     fn path<O: Ocp>(&mut self, layout: &Layout, evaluation: &Evaluation<'_, O>, point: usize) {
-        let sparsity = evaluation.node_derivatives.sparsity();
+        let sparsity = evaluation.node_derivatives().sparsity();
         let mut slot: usize = sparsity.jacobian[..layout.states]
             .iter()
             .map(Vec::len)
@@ -173,7 +173,7 @@ impl Jacobian {
         values: &mut [f64],
     ) {
         values.copy_from_slice(&self.constant);
-        let width = evaluation.node_derivatives.jacobian_nonzeros();
+        let width = evaluation.node_derivatives().jacobian_nonzeros();
         let first = |point: usize, slot: usize| evaluation.first[point * width + slot];
         for &(nonzero, term) in &self.terms {
             values[nonzero] += match term {
@@ -221,10 +221,10 @@ pub(super) fn gradient<O: Ocp>(
     gradient: &mut [f64],
 ) {
     gradient.fill(0.0);
-    let sparsity = evaluation.node_derivatives.sparsity();
+    let sparsity = evaluation.node_derivatives().sparsity();
     let cost = evaluation.node.cost();
     let inputs = &sparsity.jacobian[cost];
-    let offset = evaluation.node_derivatives.jacobian_nonzeros() - inputs.len();
+    let offset = evaluation.node_derivatives().jacobian_nonzeros() - inputs.len();
     for (k, w) in quadrature.iter().enumerate() {
         let first = &evaluation.nonzeros(k)[offset..];
         for (&input, d) in inputs.iter().zip(first) {

@@ -10,6 +10,7 @@ mod layout;
 mod names;
 mod node_derivatives;
 mod patterns;
+mod points;
 mod program;
 mod way_point;
 

@@ -1,0 +1,152 @@
+//! All collocation points at one iterate, on several threads where that pays.
+
+use super::Patterns;
+use super::functions::Node;
+use super::node_derivatives::NodeDerivatives;
+use crate::autodiff::Function;
+use crate::ocp::Ocp;
+use rayon::prelude::*;
+
+/// Least work, in points times inputs squared, that is worth waking threads for.
+const LEAST_WORK: usize = 12_000;
+/// Values take about this part of the time of derivatives.
+const VALUES: usize = 10;
+/// Most threads.
+const MOST: usize = 8;
+
+/// Evaluates every point, each by itself, so that results do not depend on the number of threads.
+pub(super) struct Points<'a, O: Ocp> {
+    /// Fractions of the duration of the collocation points.
+    fractions: Vec<f64>,
+    workers: Vec<Worker<'a, O>>,
+    work: usize,
+}
+
+/// What one thread needs.
+struct Worker<'a, O: Ocp> {
+    derivatives: NodeDerivatives<'a, O>,
+    inputs: Vec<f64>,
+}
+
+/// An iterate.
+#[derive(Clone, Copy)]
+struct Iterate<'v, 'a, O> {
+    node: &'v Node<'a, O>,
+    x: &'v [f64],
+    duration: f64,
+}
+
+impl<'a, O: Ocp> Points<'a, O> {
+    pub fn new(
+        node: &Node<'a, O>,
+        derivatives: NodeDerivatives<'a, O>,
+        patterns: &Patterns,
+        fractions: Vec<f64>,
+    ) -> Self {
+        let work = fractions.len() * node.inputs().pow(2);
+        let worker = |derivatives| Worker {
+            derivatives,
+            inputs: vec![0.0; node.inputs()],
+        };
+        let mut workers = vec![worker(derivatives)];
+        if work >= LEAST_WORK {
+            let threads = rayon::current_num_threads().min(MOST);
+            let another = || worker(NodeDerivatives::new(node, patterns.node.clone()));
+            workers.resize_with(threads.max(1), another);
+        }
+        Self {
+            fractions,
+            workers,
+            work,
+        }
+    }
+
+    pub fn fractions(&self) -> &[f64] {
+        &self.fractions
+    }
+
+    pub fn derivatives(&self) -> &NodeDerivatives<'a, O> {
+        &self.workers[0].derivatives
+    }
+
+    /// Outputs of every point, by points.
+    pub fn values(&mut self, node: &Node<'a, O>, x: &[f64], duration: f64, out: &mut [f64]) {
+        let count = if self.work < VALUES * LEAST_WORK {
+            1
+        } else {
+            self.workers.len()
+        };
+        let iterate = Iterate { node, x, duration };
+        self.each(count, iterate, out, |worker, _, out| {
+            worker.derivatives.values(node, &worker.inputs, out);
+        });
+    }
+
+    /// Jacobian nonzeros of every point, by points.
+    pub fn jacobians(&mut self, node: &Node<'a, O>, x: &[f64], duration: f64, out: &mut [f64]) {
+        let iterate = Iterate { node, x, duration };
+        self.each(self.workers.len(), iterate, out, |worker, _, out| {
+            worker.derivatives.jacobian(node, &worker.inputs, out);
+        });
+    }
+
+    /// Weighted Hessians of every point, by points.
+    pub fn hessians(
+        &mut self,
+        node: &Node<'a, O>,
+        x: &[f64],
+        duration: f64,
+        weights: &[f64],
+        out: &mut [f64],
+    ) {
+        let iterate = Iterate { node, x, duration };
+        let width = node.outputs();
+        self.each(self.workers.len(), iterate, out, |worker, k, out| {
+            let weights = &weights[k * width..(k + 1) * width];
+            worker
+                .derivatives
+                .hessian(node, &worker.inputs, weights, out);
+        });
+    }
+
+    /// Calls `body` for every point with its part of `out`, its inputs being loaded.
+    fn each(
+        &mut self,
+        count: usize,
+        iterate: Iterate<'_, 'a, O>,
+        out: &mut [f64],
+        body: impl Fn(&mut Worker<'a, O>, usize, &mut [f64]) + Sync,
+    ) {
+        let points = self.fractions.len();
+        let width = out.len() / points;
+        if width == 0 {
+            return;
+        }
+        let fractions = &self.fractions;
+        let stretch = |worker: &mut Worker<'a, O>, first: usize, out: &mut [f64]| {
+            for (k, out) in (first..).zip(out.chunks_exact_mut(width)) {
+                iterate.load(k, fractions[k], &mut worker.inputs);
+                body(worker, k, out);
+            }
+        };
+        let share = points.div_ceil(count);
+        if count == 1 {
+            stretch(&mut self.workers[0], 0, out);
+        } else {
+            let workers = self.workers[..count].par_iter_mut();
+            let shares = out.par_chunks_mut(share * width).enumerate();
+            workers
+                .zip(shares)
+                .for_each(|(worker, (s, out))| stretch(worker, s * share, out));
+        }
+    }
+}
+
+impl<O: Ocp> Iterate<'_, '_, O> {
+    /// Inputs (x, u, t) of point `k`.
+    fn load(&self, k: usize, fraction: f64, inputs: &mut [f64]) {
+        let width = self.node.time();
+        inputs[..width].copy_from_slice(&self.x[k * width..(k + 1) * width]);
+        inputs[width] = fraction * self.duration;
+    }
+}
