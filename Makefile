@@ -49,7 +49,7 @@ urdf-real: ## plan motions of real robots from their unedited URDF files
 demo: ## plan the example trajectory
 	scripts/demo.sh
 
-fresh: ## run the demo and the tests in a new Debian 12 (root, debootstrap)
+fresh: ## run the demo, the tests and the reproduction in a new Debian 12 (root, debootstrap)
 	scripts/fresh-debian.sh all
 
 table2: ## compute the comparison of the methods (Table 2)

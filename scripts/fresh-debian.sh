@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Proves that demo.sh and test.sh run on a Debian 12 that has only Rust added, and install nothing the second time.
+# Proves that demo.sh, test.sh and reproduction.sh run on a Debian 12 that has only Rust added, and install nothing the second time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-usage="usage: scripts/fresh-debian.sh [--worktree] [demo|test|all]
+usage="usage: scripts/fresh-debian.sh [--worktree] [demo|test|reproduction|all]
   --worktree  take the work tree, uncommitted changes and all, instead of HEAD
 Makes target/fresh-debian (about 3 GB, removed when all is well); needs root and debootstrap."
 
@@ -17,8 +17,8 @@ scripts=(demo test)
 for arg; do
   case $arg in
     --worktree) from=worktree ;;
-    demo | test) scripts=("$arg") ;;
-    all) scripts=(demo test) ;;
+    demo | test | reproduction) scripts=("$arg") ;;
+    all) scripts=(demo test reproduction) ;;
     -h | --help) echo "$usage" && exit ;;
     *) die "$usage" ;;
   esac
