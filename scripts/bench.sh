@@ -30,7 +30,7 @@ if ! cmp -s "$requirements" "$home/installed.txt"; then
   cp "$requirements" "$home/installed.txt"
 fi
 
-cargo build --release --locked --bin ffsm-ipopt
+cargo build --release --locked --bin ffsm-ipopt --example time_in_process
 program=$(cargo metadata --format-version 1 --no-deps --locked |
   python3 -c 'import json, sys; print(json.load(sys.stdin)["target_directory"])')/release/ffsm-ipopt
 MPLBACKEND=Agg PYTHONDONTWRITEBYTECODE=1 "$home/venv/bin/python" -W ignore \

@@ -115,3 +115,26 @@ fn every_description_of_the_attitude_gives_the_same_plan() {
         assert!(gap < 1e-6, "orientations {gap:e} rad apart");
     }
 }
+
+#[test]
+fn plans_do_not_depend_on_the_number_of_threads() {
+    let mut problem = ProblemFile::shipped("chaser-7dof").unwrap().problem;
+    (problem.mesh.segments, problem.mesh.points) = (12, 5);
+    problem.mesh.max_iterations = 1;
+    let plan = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| Planner::new().plan(&problem).unwrap())
+    };
+    let (one, four) = (plan(1), plan(4));
+    assert_eq!(one.linear_solver, "ours");
+    assert_eq!(one.objective.to_bits(), four.objective.to_bits());
+    let bits = |plan: &Plan| -> Vec<u64> {
+        let found = &plan.discretization;
+        let all = found.x.iter().chain(&found.u);
+        all.map(|value| value.to_bits()).collect()
+    };
+    assert_eq!(bits(&one), bits(&four));
+}

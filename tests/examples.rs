@@ -8,6 +8,8 @@ mod plan_from_file;
 mod plan_in_code;
 #[path = "../examples/replan_many.rs"]
 mod replan_many;
+#[path = "../examples/time_in_process.rs"]
+mod time_in_process;
 
 #[test]
 fn own_problem_runs() {
@@ -27,4 +29,9 @@ fn plan_in_code_runs() {
 #[test]
 fn replan_many_runs() {
     replan_many::main().unwrap();
+}
+
+#[test]
+fn time_in_process_runs() {
+    time_in_process::main().unwrap();
 }

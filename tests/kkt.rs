@@ -367,3 +367,70 @@ fn patterns_that_are_none_are_refused() {
     };
     assert_eq!(Pattern::new(vec![0, 1, 2], vec![0, 0]), Err(above));
 }
+
+/// A chain of `stages` dense blocks with a few links from each to the next, and multipliers: the
+/// structure of a transcription.
+fn chain(rng: &mut Rng, stages: usize) -> Matrix {
+    let (variables, rows) = (14, 8);
+    let primal = stages * variables;
+    let mut matrix = Matrix::new(primal + stages * rows);
+    for stage in 0..stages {
+        let first = stage * variables;
+        for i in 0..variables {
+            for j in 0..=i {
+                let value = uniform(rng) + if i == j { 16.0 } else { 0.0 };
+                matrix.push(first + i, first + j, value);
+            }
+        }
+        for row in 0..rows {
+            let multiplier = primal + stage * rows + row;
+            let last = if stage + 1 < stages {
+                variables + 4
+            } else {
+                variables
+            };
+            for j in 0..last {
+                matrix.push(multiplier, first + j, uniform(rng));
+            }
+        }
+    }
+    matrix
+}
+
+#[test]
+fn what_is_cut_along_the_time_axis_has_the_factors_of_any_number_of_threads() {
+    let mut rng = Rng::with_seed(11);
+    let matrix = chain(&mut rng, 96);
+    let (pattern, values) = matrix.sparse();
+    let symbolic = Symbolic::new(pattern);
+    assert!(symbolic.concurrency() > 1, "in one piece");
+    let right: Vec<f64> = (0..symbolic.len()).map(|_| uniform(&mut rng)).collect();
+    let solve = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let mut factors = Factors::new(&symbolic);
+        let inertia = pool.install(|| factors.factor(&symbolic, &values, 1e-8).unwrap());
+        let mut x = right.clone();
+        factors.solve(&symbolic, &mut x);
+        (inertia, x)
+    };
+    let (inertia, x) = solve(1);
+    // The blocks are positive definite by their diagonals: one negative eigenvalue a row.
+    assert_eq!((inertia.negative, inertia.zero), (96 * 8, 0));
+    for threads in [2, 5] {
+        let (other, y) = solve(threads);
+        assert_eq!(inertia, other);
+        assert!(x.iter().zip(&y).all(|(x, y)| x.to_bits() == y.to_bits()));
+    }
+    let mut residual = right.clone();
+    for &(i, j, value) in &matrix.entries {
+        residual[i] -= value * x[j];
+        if i != j {
+            residual[j] -= value * x[i];
+        }
+    }
+    let most = residual.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+    assert!(most < 1e-9, "{most:e}");
+}

@@ -63,6 +63,14 @@ def one_mesh(program: Path, problem: Path, segments: int, points: int) -> Run:
     )
 
 
+def in_process(program: Path, problem: Path, segments: int, points: int) -> dict:
+    """One programme solved over and over in one process, as a library: the median's figures."""
+    example = program.parent / "examples" / "time_in_process"
+    sets = ["mesh.max_iterations=1", f"mesh.segments={segments}", f"mesh.points={points}"]
+    command = [example, problem, "11", *sets]
+    return json.loads(subprocess.run(command, capture_output=True, check=True, text=True).stdout)
+
+
 def check(program: Path, problem: Path) -> float:
     """Wall time of a process that reads the problem and solves nothing, s."""
     return _run([program, "check", problem], (0,)).wall
