@@ -6,7 +6,7 @@ use super::lanes::Avx2;
 use super::lanes::{LANES, Plain, Vector};
 use super::part::{Part, Place};
 use super::symbolic::{Front, Symbolic, padded};
-use super::update::{axpy, axpy4, dot, dot4};
+use super::update::{axpy, dot};
 
 impl Factors {
     /// Overwrites the right-hand side `x` by the solution.
@@ -75,20 +75,9 @@ fn forward<V: Vector>(
         *y = x[unknown as usize];
     }
     let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
-    let (own, below) = y.split_at_mut(pivots);
     for (k, column) in panel.chunks_exact(ld).enumerate() {
         let from = k / LANES * LANES;
-        axpy::<V>(own[k], &column[from..pivots], &mut own[from..]);
-    }
-    // The border takes several columns at a time, which spares it loads and stores.
-    let mut columns = panel.chunks_exact(4 * ld.max(1));
-    let (factors, _) = own.as_chunks::<4>();
-    for (four, factors) in columns.by_ref().zip(factors) {
-        axpy4::<V>(factors, borders(four, ld, pivots), below);
-    }
-    let done = place.eliminated / 4 * 4;
-    for (column, &factor) in columns.remainder().chunks_exact(ld).zip(&own[done..]) {
-        axpy::<V>(factor, &column[pivots..], below);
+        axpy::<V>(y[k], &column[from..], &mut y[from..]);
     }
     let mut k = 0;
     while k < place.eliminated {
@@ -135,30 +124,11 @@ fn backward<V: Vector>(
         *y = x[unknown as usize];
     }
     let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
-    let (own, below) = y.split_at_mut(pivots);
-    let mut columns = panel.chunks_exact(4 * ld.max(1));
-    let (sums, _) = own.as_chunks_mut::<4>();
-    for (four, sums) in columns.by_ref().zip(sums) {
-        let dots = dot4::<V>(borders(four, ld, pivots), below);
-        for (sum, dot) in sums.iter_mut().zip(dots) {
-            *sum -= dot;
-        }
-    }
-    let done = place.eliminated / 4 * 4;
-    for (column, sum) in (columns.remainder().chunks_exact(ld)).zip(&mut own[done..]) {
-        *sum -= dot::<V>(&column[pivots..], below);
-    }
     for (k, column) in panel.chunks_exact(ld).enumerate().rev() {
         let from = k / LANES * LANES;
-        own[k] -= dot::<V>(&column[from..pivots], &own[from..]);
+        y[k] -= dot::<V>(&column[from..], &y[from..]);
     }
-    for (y, &unknown) in own.iter().zip(&unknowns[..place.eliminated]) {
+    for (y, &unknown) in y.iter().zip(&unknowns[..place.eliminated]) {
         x[unknown as usize] = *y;
     }
-}
-
-/// The border's rows of four columns.
-#[inline(always)]
-fn borders(four: &[f64], ld: usize, pivots: usize) -> [&[f64]; 4] {
-    std::array::from_fn(|i| &four[i * ld + pivots..(i + 1) * ld])
 }

@@ -148,38 +148,6 @@ pub(super) fn axpy2<V: Vector>(factors: [f64; 2], x1: &[f64], x2: &[f64], y: &mu
     }
 }
 
-/// y −= Σ factorsᵢ·xᵢ, of whole vectors.
-#[inline(always)]
-pub(super) fn axpy4<V: Vector>(factors: &[f64; 4], x: [&[f64]; 4], y: &mut [f64]) {
-    let factors = factors.map(|factor| V::splat(-factor));
-    let [x0, x1, x2, x3] = x.map(|x| x.as_chunks::<LANES>().0);
-    let (y, _) = y.as_chunks_mut::<LANES>();
-    let columns = x0.iter().zip(x1).zip(x2.iter().zip(x3));
-    for (((x0, x1), (x2, x3)), y) in columns.zip(y) {
-        let one = factors[0].times_plus(V::load(x0), V::load(y));
-        let two = factors[1].times_plus(V::load(x1), one);
-        let three = factors[2].times_plus(V::load(x2), two);
-        factors[3].times_plus(V::load(x3), three).store(y);
-    }
-}
-
-/// xᵢᵀy, of whole vectors.
-#[inline(always)]
-pub(super) fn dot4<V: Vector>(x: [&[f64]; 4], y: &[f64]) -> [f64; 4] {
-    let [x0, x1, x2, x3] = x.map(|x| x.as_chunks::<LANES>().0);
-    let (y, _) = y.as_chunks::<LANES>();
-    let mut sum = [V::splat(0.0); 4];
-    let columns = x0.iter().zip(x1).zip(x2.iter().zip(x3));
-    for (((x0, x1), (x2, x3)), y) in columns.zip(y) {
-        let y = V::load(y);
-        sum[0] = V::load(x0).times_plus(y, sum[0]);
-        sum[1] = V::load(x1).times_plus(y, sum[1]);
-        sum[2] = V::load(x2).times_plus(y, sum[2]);
-        sum[3] = V::load(x3).times_plus(y, sum[3]);
-    }
-    sum.map(V::sum)
-}
-
 /// xᵀy, of whole vectors.
 #[inline(always)]
 pub(super) fn dot<V: Vector>(x: &[f64], y: &[f64]) -> f64 {
