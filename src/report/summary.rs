@@ -256,8 +256,9 @@ fn iterations(plan: &Plan) -> String {
             format!("{:.3e}", record.max_error),
             format!("{:.9}", record.objective),
             format!(
-                "{} iterations, {}",
+                "{} iteration{}, {}",
                 record.nlp_iterations,
+                if record.nlp_iterations == 1 { "" } else { "s" },
                 record.nlp_status.describe()
             ),
             seconds(record.time),

@@ -18,6 +18,9 @@ const SLACK: f64 = 1.1;
 /// one that has cut the matrix into so many `stretches`.
 pub(super) fn divide(merged: Vec<Merged>, stretches: usize) -> (Vec<Merged>, Vec<Range<usize>>) {
     let count = merged.len();
+    if stretches == 1 {
+        return (merged, std::iter::once(0..count).collect());
+    }
     let own: Vec<f64> = merged
         .iter()
         .map(|front| cost(front.pivots.len(), front.border.len()))
@@ -29,9 +32,6 @@ pub(super) fn divide(merged: Vec<Merged>, stretches: usize) -> (Vec<Merged>, Vec
         }
     }
     let total: f64 = own.iter().sum();
-    if stretches == 1 {
-        return (merged, std::iter::once(0..count).collect());
-    }
     let part = assign(&merged, &work, SLACK * total / stretches as f64);
 
     // A stable sort by part: within each the order stays one of children before parents.

@@ -69,11 +69,7 @@ fn forward<V: Vector>(
     let ld = pivots + padded(front.border);
     let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
     let inverse = &part.inverse[place.pivots..place.pivots + place.columns];
-    let y = &mut vector[..ld];
-    y.fill(0.0);
-    for (y, &unknown) in y.iter_mut().zip(unknowns) {
-        *y = x[unknown as usize];
-    }
+    let y = gather(vector, ld, unknowns, x);
     let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
     for (k, column) in panel.chunks_exact(ld).enumerate() {
         let from = k / LANES * LANES;
@@ -114,11 +110,7 @@ fn backward<V: Vector>(
     let pivots = padded(place.columns);
     let ld = pivots + padded(front.border);
     let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
-    let y = &mut vector[..ld];
-    y.fill(0.0);
-    for (y, &unknown) in y.iter_mut().zip(unknowns) {
-        *y = x[unknown as usize];
-    }
+    let y = gather(vector, ld, unknowns, x);
     let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
     for (y, &unknown) in y[pivots..].iter_mut().zip(border) {
         *y = x[unknown as usize];
@@ -131,4 +123,15 @@ fn backward<V: Vector>(
     for (y, &unknown) in y.iter().zip(&unknowns[..place.eliminated]) {
         x[unknown as usize] = *y;
     }
+}
+
+/// A front's own right-hand side in `ld` rows, the rest being zero.
+#[inline(always)]
+fn gather<'v>(vector: &'v mut [f64], ld: usize, unknowns: &[u32], x: &[f64]) -> &'v mut [f64] {
+    let y = &mut vector[..ld];
+    y.fill(0.0);
+    for (y, &unknown) in y.iter_mut().zip(unknowns) {
+        *y = x[unknown as usize];
+    }
+    y
 }
