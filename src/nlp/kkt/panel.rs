@@ -2,8 +2,9 @@
 //!
 //! A panel is column-major: its pivots' rows, padded to whole vectors, then its border's rows,
 //! padded likewise; one column a pivot. While columns are eliminated, the pivot block is kept as
-//! a full square, so that a column is always contiguous, and rows already eliminated are zero in
-//! the columns that are left, so that a search need not leave them out.
+//! a full square, so that a column is always contiguous. Columns are brought up to date a few at a
+//! time, just before they are searched; in these the rows already eliminated are zero from the
+//! whole vector on that the search begins with, so that it need not leave them out.
 //!
 //! Tests for pivots as in Duff and Reid's multifrontal method (doi:10.1145/356044.356047) and
 //! Hogg and Scott (doi:10.1145/2513109.2513112).
@@ -12,14 +13,17 @@ use super::lanes::{LANES, Vector};
 use super::noise::Noise;
 use super::update::{axpy, axpy_largest, axpy2, axpy2_largest, largest, subtract};
 
-/// Pivots are first looked for with this much of their columns' largest entry.
+/// Pivots with this much of their columns' largest entry are preferred.
 const PREFERRED: f64 = 1e-4;
 
 /// What counts as zero.
 const SMALL: f64 = 1e-20;
 
-/// Columns searched and kept up to date together.
-const BLOCK: usize = 24;
+/// Columns brought up to date together.
+const BLOCK: usize = 4;
+
+/// Most columns that are searched for pivots together.
+const MOST: usize = 24;
 
 /// What has come of a panel's pivots.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -67,56 +71,63 @@ impl Panel<'_> {
         let mut counts = Counts::default();
         let mut untried = self.columns;
         let mut progress = false;
-        let mut block = BLOCK;
+        let mut most = MOST;
+        // Pivots that the columns behind the group in work are up to date with.
+        let mut applied = 0;
         loop {
             let from = counts.eliminated;
-            let end = untried.min(from + block);
-            self.eliminate::<V>(&mut counts, end, self.threshold);
-            let done = counts.eliminated;
-            progress |= done > from;
-            if done > from && end < self.columns {
-                self.update_rest::<V>(from, done, end);
+            let mut end = from;
+            // A few columns at a time, as long as not too many have failed.
+            while end < untried && end - counts.eliminated < most {
+                let next = untried.min(end + BLOCK);
+                self.bring_up::<V>(applied, counts.eliminated, end, next);
+                self.eliminate::<V>(&mut counts, end, next);
+                end = next;
             }
+            let done = counts.eliminated;
+            // At the end, all that is left was searched after the last of the pivots.
+            if done == self.columns || end == self.columns {
+                break;
+            }
+            self.bring_up::<V>(applied, done, end, self.columns);
+            applied = done;
             // What failed goes behind what has not been tried.
             for failed in (done..end).rev() {
                 untried -= 1;
                 self.swap(failed, untried);
             }
+            progress |= done > from;
             if untried > done {
                 continue;
             }
-            if done == self.columns {
-                break;
-            }
             if progress {
-                (progress, untried) = (false, self.columns);
-            } else if block < self.columns - done {
-                // A partner may have been in another block.
-                (block, untried) = (self.columns, self.columns);
+                progress = false;
+            } else if most < self.columns - done {
+                // A partner may have been in another group.
+                most = self.columns;
             } else {
-                if last {
-                    self.force::<V>(&mut counts);
-                }
                 break;
             }
+            untried = self.columns;
+        }
+        if last {
+            self.force::<V>(&mut counts);
         }
         counts
     }
 
-    /// Eliminates what can be of the columns up to `end`.
+    /// Eliminates what can be of the columns up to `end`; those before `next` have failed before.
     #[inline(always)]
-    fn eliminate<V: Vector>(&mut self, counts: &mut Counts, end: usize, threshold: f64) {
-        let preferred = PREFERRED.max(threshold);
+    fn eliminate<V: Vector>(&mut self, counts: &mut Counts, mut next: usize, end: usize) {
         while counts.eliminated < end {
             let k = counts.eliminated;
-            let found = match self.find::<V>(k, end, preferred) {
-                None if threshold < preferred => self.find::<V>(k, end, threshold),
-                found => found,
+            let Some(pivot) = self.find::<V>(k, next, end, self.threshold) else {
+                break;
             };
-            match found {
-                Some(pivot) => self.pivot::<V>(pivot, counts, end),
-                None => break,
-            }
+            // Those that failed before column t now stand before its place.
+            let (Pivot::Zero(t) | Pivot::One(t) | Pivot::Two(t, _)) = pivot;
+            self.pivot::<V>(pivot, counts, end);
+            next = (t + 1).max(counts.eliminated);
         }
     }
 
@@ -126,8 +137,7 @@ impl Panel<'_> {
         let end = self.columns;
         while counts.eliminated < end {
             let k = counts.eliminated;
-            let found = self.find::<V>(k, end, PREFERRED);
-            let found = found.or_else(|| self.find::<V>(k, end, 0.0));
+            let found = self.find::<V>(k, k, end, 0.0);
             // Cancellation in every pivot of order two: take the diagonal as it is.
             self.pivot::<V>(found.unwrap_or(Pivot::One(k)), counts, end);
         }
@@ -192,77 +202,93 @@ impl Panel<'_> {
         }
     }
 
-    /// The first pivot among columns `k..end` that passes `threshold`.
+    /// The first pivot among columns `next..end`, then `k..next`, that passes the preferred
+    /// threshold; else the first that passes `threshold`.
     #[inline(always)]
-    fn find<V: Vector>(&mut self, k: usize, end: usize, threshold: f64) -> Option<Pivot> {
+    fn find<V: Vector>(
+        &mut self,
+        k: usize,
+        next: usize,
+        end: usize,
+        threshold: f64,
+    ) -> Option<Pivot> {
         let ld = self.ld;
         let from = k / LANES * LANES;
-        let mut known = self.next.take();
-        for t in k..end {
+        let preferred = PREFERRED.max(threshold);
+        let mut known = self.next.take().filter(|_| next == k);
+        let mut second = None;
+        for t in (next..end).chain(k..next.min(end)) {
             let column = &self.a[t * ld..(t + 1) * ld];
             let d = column[t];
-            // The diagonal may count: a threshold is never above one.
-            let most = known
-                .take()
-                .unwrap_or_else(|| largest::<V>(&column[from..]));
+            // The diagonal may count: a threshold is never above one. No closure, which would be
+            // compiled without the processor's vectors.
+            let most = match known.take() {
+                Some(most) => most,
+                None => largest::<V>(&column[from..]),
+            };
             if self.noise.is(self.unknowns[t], most) {
                 return Some(Pivot::Zero(t));
             }
-            if d.abs() > SMALL && d.abs() >= threshold * most {
+            if d.abs() > SMALL && d.abs() >= preferred * most {
                 return Some(Pivot::One(t));
             }
-            // A partner: the largest entry in the block.
-            let mut r = t;
-            let mut link = 0.0;
-            for (i, value) in column[k..end].iter().enumerate() {
-                if value.abs() > link && k + i != t {
-                    (r, link) = (k + i, value.abs());
+            if let Some(r) = self.partner(k, t, end) {
+                let (determinant, growth) = self.pair::<V>(t, r, from, end);
+                if determinant >= preferred * growth {
+                    return Some(Pivot::Two(t, r));
+                }
+                if second.is_none() && determinant > 0.0 && determinant >= threshold * growth {
+                    second = Some(Pivot::Two(t, r));
                 }
             }
-            if r != t && link > SMALL && self.is_pair::<V>(t, r, from, threshold) {
-                return Some(Pivot::Two(t, r));
+            if second.is_none() && d.abs() > SMALL && d.abs() >= threshold * most {
+                second = Some(Pivot::One(t));
             }
         }
-        None
+        second
     }
 
-    /// Whether columns `t` and `r` make a pivot of order two.
+    /// The column of `k..end` that column `t` has its largest entry with.
     #[inline(always)]
-    fn is_pair<V: Vector>(&self, t: usize, r: usize, from: usize, threshold: f64) -> bool {
+    fn partner(&self, k: usize, t: usize, end: usize) -> Option<usize> {
+        let column = &self.a[t * self.ld..(t + 1) * self.ld];
+        let (mut r, mut link) = (t, SMALL);
+        for (i, value) in column[k..end].iter().enumerate() {
+            let larger = value.abs() > link && k + i != t;
+            link = if larger { value.abs() } else { link };
+            r = if larger { k + i } else { r };
+        }
+        (r != t).then_some(r)
+    }
+
+    /// What decides on a pivot of order two of columns `t` and `r`: its determinant, negative where
+    /// that cancels, and the growth, of which the threshold's part is to be less.
+    #[inline(always)]
+    fn pair<V: Vector>(&self, t: usize, r: usize, from: usize, end: usize) -> (f64, f64) {
         let ld = self.ld;
         let (a, b, c) = (self.a[t * ld + t], self.a[t * ld + r], self.a[r * ld + r]);
         let scale = 1.0 / a.abs().max(b.abs()).max(c.abs());
         let (diagonal, link) = ((a * scale) * c, (b * scale) * b);
         let determinant = (diagonal - link).abs();
         if determinant < SMALL.max(0.5 * diagonal.abs().max(link.abs())) {
-            return false;
+            return (-1.0, 1.0);
         }
-        let most_t = self.without::<V>(t, [t, r], from);
-        let most_r = self.without::<V>(r, [t, r], from);
+        let most_t = self.without::<V>(t, [t, r], from, end);
+        let most_r = self.without::<V>(r, [t, r], from, end);
         let growth_t = (c.abs() * most_t + b.abs() * most_r) * scale;
         let growth_r = (a.abs() * most_r + b.abs() * most_t) * scale;
-        threshold * growth_t.max(growth_r) <= determinant
+        (determinant, growth_t.max(growth_r))
     }
 
-    /// Largest entry of a column from row `from` on but for those of two rows.
+    /// Largest entry of a column from row `from` on but for those of two rows before `end`.
     #[inline(always)]
-    fn without<V: Vector>(&self, column: usize, rows: [usize; 2], from: usize) -> f64 {
-        let column = &self.a[column * self.ld + from..(column + 1) * self.ld];
-        let [first, second] = [rows[0].min(rows[1]) - from, rows[0].max(rows[1]) - from];
-        let [one, two] = [first / LANES, second / LANES];
-        let (chunks, _) = column.as_chunks::<LANES>();
-        let mut most = largest::<V>(&column[..one * LANES]);
-        most = most.max(largest::<V>(&column[(two + 1) * LANES..]));
-        if one < two {
-            most = most.max(largest::<V>(&column[(one + 1) * LANES..two * LANES]));
-        }
-        for chunk in [one, two] {
-            for (lane, value) in chunks[chunk].iter().enumerate() {
-                let row = chunk * LANES + lane;
-                if row != first && row != second {
-                    most = most.max(value.abs());
-                }
-            }
+    fn without<V: Vector>(&self, column: usize, rows: [usize; 2], from: usize, end: usize) -> f64 {
+        let column = &self.a[column * self.ld..(column + 1) * self.ld];
+        let (head, tail) = column.split_at(end.next_multiple_of(LANES));
+        let mut most = largest::<V>(tail);
+        for (row, value) in head.iter().enumerate().skip(from) {
+            let counts = row != rows[0] && row != rows[1] && value.abs() > most;
+            most = if counts { value.abs() } else { most };
         }
         most
     }
@@ -368,7 +394,8 @@ impl Panel<'_> {
         let (second, _) = second[from..].as_chunks_mut::<LANES>();
         let (kept_first, _) = kept_first[from..].as_chunks_mut::<LANES>();
         let (kept_second, _) = kept_second[from..].as_chunks_mut::<LANES>();
-        let inverse = inverse.map(V::splat);
+        let [a, b, c] = inverse;
+        let inverse = [V::splat(a), V::splat(b), V::splat(c)];
         let columns = first.iter_mut().zip(second);
         for ((first, second), (kept_first, kept_second)) in
             columns.zip(kept_first.iter_mut().zip(kept_second))
@@ -381,17 +408,17 @@ impl Panel<'_> {
         }
     }
 
-    /// Brings the columns from `end` on up to date with pivots `from..done`.
+    /// Brings columns `first..end` up to date with pivots `from..done`.
     #[inline(always)]
-    fn update_rest<V: Vector>(&mut self, from: usize, done: usize, end: usize) {
+    fn bring_up<V: Vector>(&mut self, from: usize, done: usize, first: usize, end: usize) {
+        if from == done || first == end {
+            return;
+        }
         let ld = self.ld;
-        let (left, right) = self.a.split_at_mut(end * ld);
+        let (left, right) = self.a.split_at_mut(first * ld);
         let rows = done / LANES * LANES;
-        for (tile, columns) in right[..(self.columns - end) * ld]
-            .chunks_mut(4 * ld)
-            .enumerate()
-        {
-            let j = end + 4 * tile;
+        for (tile, columns) in right[..(end - first) * ld].chunks_mut(4 * ld).enumerate() {
+            let j = first + 4 * tile;
             // Four rows of D Lᵀ; those beyond the last column are not used.
             subtract::<V>(
                 &left[from * ld..done * ld],
@@ -404,7 +431,7 @@ impl Panel<'_> {
                 rows,
             );
             for column in columns.chunks_exact_mut(ld) {
-                column[from..done].fill(0.0);
+                column[rows..done].fill(0.0);
             }
         }
     }
