@@ -6,11 +6,14 @@
 //! is to find its memory evicted by the other. Printed are medians over the repetitions, averaged
 //! over the systems. MUMPS is set up as Ipopt sets it up, with the ordering that is its best here.
 
+mod machine;
+
 use ffsm_ipopt::config::ProblemFile;
 use ffsm_ipopt::nlp::ipopt::{System, record};
 use ffsm_ipopt::nlp::kkt::{Factors, Symbolic};
 use ffsm_ipopt::planner::Planner;
 use libloading::{Library, Symbol};
+use machine::{bandwidth, peak};
 use std::ffi::{c_int, c_void};
 use std::hint::black_box;
 use std::time::Instant;
@@ -208,6 +211,36 @@ fn compare(systems: &[System], library: Option<&Library>) -> [Option<Times>; 2] 
     [Some(ours), mumps.map(|_| theirs)]
 }
 
+/// Operations of a factorisation and a solution against what the machine could do.
+fn roofline(symbolic: &Symbolic, ours: &Times, peak: f64) {
+    let size = symbolic.factor_size() as f64;
+    let threads = symbolic.concurrency().min(rayon::current_num_threads());
+    // A solution takes every number of the factors twice, for one multiplication and addition.
+    for (what, operations, bytes, time, threads) in [
+        (
+            "factor",
+            2.0 * symbolic.multiplications(),
+            16.0 * size,
+            ours.factor,
+            threads,
+        ),
+        ("solve", 4.0 * size, 16.0 * size, ours.solve, 1),
+    ] {
+        let speed = 1e-3 * operations / time;
+        let peak = peak * threads as f64;
+        let traffic = 1e-3 * bytes / time;
+        let bandwidth = bandwidth(symbolic.factor_size()) * threads as f64;
+        println!(
+            "{:>8} roofline, {what:>6}: {:.2} Mflop, {speed:.1} Gflop/s of {peak:.0} ({:.0} %); \
+             factors at {traffic:.0} GB/s of {bandwidth:.0} ({:.0} %)",
+            "",
+            1e-6 * operations,
+            100.0 * speed / peak,
+            100.0 * traffic / bandwidth,
+        );
+    }
+}
+
 fn main() {
     // `cargo bench` names itself; `cargo test --benches` only wants to see it start.
     if !std::env::args().any(|argument| argument == "--bench") {
@@ -216,6 +249,7 @@ fn main() {
     let shim = std::env::var_os("FFSM_MUMPS_SHIM");
     // SAFETY: the shim has no initialisers of its own.
     let library = shim.map(|path| unsafe { Library::new(path) }.expect("the shim loads"));
+    let peak = peak();
     println!(
         "{:>8} {:>6} {:>8} {:>8}  {:>6} {:>12} {:>11} {:>10} {:>10}",
         "robot",
@@ -261,14 +295,13 @@ fn main() {
         if let Some(ours) = &both[0] {
             let symbolic = &systems[0].symbolic;
             println!(
-                "{:>8} {} entries, {} fronts, {} numbers in the factors, {:.2} Mflop: {:.2} Gflop/s",
+                "{:>8} {} entries, {} fronts, {} numbers in the factors",
                 "",
                 symbolic.pattern().nonzeros(),
                 symbolic.fronts(),
                 symbolic.factor_size(),
-                2e-6 * symbolic.multiplications(),
-                2e-3 * symbolic.multiplications() / ours.factor
             );
+            roofline(symbolic, ours, peak);
         }
         if let [Some(ours), Some(theirs)] = &both {
             let once = (theirs.factor + theirs.solve) / (ours.factor + ours.solve);
