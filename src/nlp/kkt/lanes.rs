@@ -13,6 +13,7 @@ pub(super) trait Vector: Copy {
     fn store(self, to: &mut [f64; LANES]);
     /// self·b + c, in one rounding where there is an instruction for it.
     fn times_plus(self, b: Self, c: Self) -> Self;
+    fn plus(self, other: Self) -> Self;
     fn minus(self, other: Self) -> Self;
     fn times(self, other: Self) -> Self;
     /// The larger of `self` and the magnitude of `other`, lane by lane.
@@ -20,6 +21,8 @@ pub(super) trait Vector: Copy {
     /// The largest lane.
     fn largest(self) -> f64;
     fn sum(self) -> f64;
+    /// The sum of each of the vectors.
+    fn sums(of: [Self; LANES]) -> [f64; LANES];
 }
 
 /// Plain arithmetic.
@@ -45,6 +48,11 @@ impl Vector for Plain {
     #[inline(always)]
     fn times_plus(self, b: Self, c: Self) -> Self {
         Self(std::array::from_fn(|i| self.0[i] * b.0[i] + c.0[i]))
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
     }
 
     #[inline(always)]
@@ -75,6 +83,11 @@ impl Vector for Plain {
     fn sum(self) -> f64 {
         let [a, b, c, d] = self.0;
         (a + c) + (b + d)
+    }
+
+    #[inline(always)]
+    fn sums(of: [Self; LANES]) -> [f64; LANES] {
+        of.map(Self::sum)
     }
 }
 
@@ -114,6 +127,12 @@ mod avx2 {
         fn times_plus(self, b: Self, c: Self) -> Self {
             // SAFETY: see above.
             Self(unsafe { _mm256_fmadd_pd(self.0, b.0, c.0) })
+        }
+
+        #[inline(always)]
+        fn plus(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_add_pd(self.0, other.0) })
         }
 
         #[inline(always)]
@@ -159,6 +178,21 @@ mod avx2 {
                 );
                 _mm_cvtsd_f64(_mm_add_sd(halves, _mm_unpackhi_pd(halves, halves)))
             }
+        }
+
+        #[inline(always)]
+        fn sums(of: [Self; LANES]) -> [f64; LANES] {
+            let [a, b, c, d] = of;
+            let mut sums = [0.0; LANES];
+            // SAFETY: see above.
+            unsafe {
+                let ab = _mm256_hadd_pd(a.0, b.0);
+                let cd = _mm256_hadd_pd(c.0, d.0);
+                let low = _mm256_permute2f128_pd::<0x20>(ab, cd);
+                let high = _mm256_permute2f128_pd::<0x31>(ab, cd);
+                _mm256_storeu_pd(sums.as_mut_ptr(), _mm256_add_pd(low, high));
+            }
+            sums
         }
     }
 }

@@ -6,7 +6,7 @@ use super::lanes::Avx2;
 use super::lanes::{LANES, Plain, Vector};
 use super::part::{Part, Place};
 use super::symbolic::{Front, Symbolic, padded};
-use super::update::{axpy, dot};
+use super::update::{axpy, axpy4, dot, dot4};
 
 impl Factors {
     /// Overwrites the right-hand side `x` by the solution.
@@ -69,12 +69,32 @@ fn forward<V: Vector>(
     let ld = pivots + padded(front.border);
     let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
     let inverse = &part.inverse[place.pivots..place.pivots + place.columns];
-    let y = gather(vector, ld, unknowns, x);
+    let y = gather(vector, pivots, unknowns, x);
+    y[pivots..ld].fill(0.0);
     let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
-    for (k, column) in panel.chunks_exact(ld).enumerate() {
-        let from = k / LANES * LANES;
-        axpy::<V>(y[k], &column[from..], &mut y[from..]);
+    let (y, _) = y[..ld].as_chunks_mut::<LANES>();
+    for (group, columns) in panel.chunks(LANES * ld).enumerate() {
+        let (y, below) = y[group..].split_at_mut(1);
+        let y = &mut y[0];
+        if columns.len() == LANES * ld {
+            let columns = columns_of(columns, ld, group);
+            for k in 0..LANES {
+                for r in k + 1..LANES {
+                    y[r] -= y[k] * columns[k][0][r];
+                }
+            }
+            axpy4::<V>(y, columns.map(|column| &column[1..]), below);
+        } else {
+            for (k, column) in columns.chunks_exact(ld).enumerate() {
+                let (corner, column) = column[group * LANES..].split_at(LANES);
+                for r in k + 1..LANES {
+                    y[r] -= y[k] * corner[r];
+                }
+                axpy::<V>(y[k], column, below.as_flattened_mut());
+            }
+        }
     }
+    let y = y.as_flattened();
     let mut k = 0;
     while k < place.eliminated {
         let [d, link] = inverse[k];
@@ -110,28 +130,57 @@ fn backward<V: Vector>(
     let pivots = padded(place.columns);
     let ld = pivots + padded(front.border);
     let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
-    let y = gather(vector, ld, unknowns, x);
+    let y = gather(vector, pivots, unknowns, x);
     let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
     for (y, &unknown) in y[pivots..].iter_mut().zip(border) {
         *y = x[unknown as usize];
     }
+    y[pivots + front.border..ld].fill(0.0);
     let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
-    for (k, column) in panel.chunks_exact(ld).enumerate().rev() {
-        let from = k / LANES * LANES;
-        y[k] -= dot::<V>(&column[from..], &y[from..]);
+    let (y, _) = y[..ld].as_chunks_mut::<LANES>();
+    for (group, columns) in panel.chunks(LANES * ld).enumerate().rev() {
+        let (y, below) = y[group..].split_at_mut(1);
+        let y = &mut y[0];
+        if columns.len() == LANES * ld {
+            let columns = columns_of(columns, ld, group);
+            let mut sums = dot4::<V>(columns.map(|column| &column[1..]), below);
+            for k in (0..LANES).rev() {
+                for r in k + 1..LANES {
+                    sums[k] += y[r] * columns[k][0][r];
+                }
+                y[k] -= sums[k];
+            }
+        } else {
+            for (k, column) in columns.chunks_exact(ld).enumerate().rev() {
+                let (corner, column) = column[group * LANES..].split_at(LANES);
+                let mut sum = dot::<V>(column, below.as_flattened());
+                for r in k + 1..LANES {
+                    sum += y[r] * corner[r];
+                }
+                y[k] -= sum;
+            }
+        }
     }
+    let y = y.as_flattened();
     for (y, &unknown) in y.iter().zip(&unknowns[..place.eliminated]) {
         x[unknown as usize] = *y;
     }
 }
 
-/// A front's own right-hand side in `ld` rows, the rest being zero.
+/// Whole vectors from the `first` on of [`LANES`] columns of length `ld`.
 #[inline(always)]
-fn gather<'v>(vector: &'v mut [f64], ld: usize, unknowns: &[u32], x: &[f64]) -> &'v mut [f64] {
-    let y = &mut vector[..ld];
-    y.fill(0.0);
-    for (y, &unknown) in y.iter_mut().zip(unknowns) {
+fn columns_of(columns: &[f64], ld: usize, first: usize) -> [&[[f64; LANES]]; LANES] {
+    let column = |k: usize| &columns[k * ld..(k + 1) * ld].as_chunks().0[first..];
+    [column(0), column(1), column(2), column(3)]
+}
+
+/// A front's own part of the right-hand side in the first of its `pivots` rows, the rest of those
+/// being zero.
+#[inline(always)]
+fn gather<'v>(vector: &'v mut [f64], pivots: usize, unknowns: &[u32], x: &[f64]) -> &'v mut [f64] {
+    vector[unknowns.len()..pivots].fill(0.0);
+    for (y, &unknown) in vector.iter_mut().zip(unknowns) {
         *y = x[unknown as usize];
     }
-    y
+    vector
 }

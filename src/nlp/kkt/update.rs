@@ -148,6 +148,43 @@ pub(super) fn axpy2<V: Vector>(factors: [f64; 2], x1: &[f64], x2: &[f64], y: &mu
     }
 }
 
+/// y −= X·factors, for four columns of whole vectors.
+#[inline(always)]
+pub(super) fn axpy4<V: Vector>(
+    factors: &[f64; LANES],
+    x: [&[[f64; LANES]]; LANES],
+    y: &mut [[f64; LANES]],
+) {
+    let [a, b, c, d] = factors.map(|factor| -factor);
+    let [a, b, c, d] = [V::splat(a), V::splat(b), V::splat(c), V::splat(d)];
+    let [p, q, r, s] = x;
+    let columns = p.iter().zip(q).zip(r.iter().zip(s));
+    for (y, ((p, q), (r, s))) in y.iter_mut().zip(columns) {
+        let first = a.times_plus(V::load(p), V::load(y));
+        let second = b.times(V::load(q));
+        let first = c.times_plus(V::load(r), first);
+        let second = d.times_plus(V::load(s), second);
+        first.plus(second).store(y);
+    }
+}
+
+/// Xᵀy, for four columns of whole vectors.
+#[inline(always)]
+pub(super) fn dot4<V: Vector>(x: [&[[f64; LANES]]; LANES], y: &[[f64; LANES]]) -> [f64; LANES] {
+    let zero = V::splat(0.0);
+    let mut sums = [zero, zero, zero, zero];
+    let [p, q, r, s] = x;
+    let columns = p.iter().zip(q).zip(r.iter().zip(s));
+    for (y, ((p, q), (r, s))) in y.iter().zip(columns) {
+        let y = V::load(y);
+        sums[0] = V::load(p).times_plus(y, sums[0]);
+        sums[1] = V::load(q).times_plus(y, sums[1]);
+        sums[2] = V::load(r).times_plus(y, sums[2]);
+        sums[3] = V::load(s).times_plus(y, sums[3]);
+    }
+    V::sums(sums)
+}
+
 /// xᵀy, of whole vectors.
 #[inline(always)]
 pub(super) fn dot<V: Vector>(x: &[f64], y: &[f64]) -> f64 {
