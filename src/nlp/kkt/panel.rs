@@ -420,7 +420,7 @@ impl Panel<'_> {
         for (tile, columns) in right[..(end - first) * ld].chunks_mut(4 * ld).enumerate() {
             let j = first + 4 * tile;
             // Four rows of D Lᵀ; those beyond the last column are not used.
-            subtract::<V>(
+            subtract::<V, false>(
                 &left[from * ld..done * ld],
                 &self.w[from * ld..done * ld + 4],
                 ld,

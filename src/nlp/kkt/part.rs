@@ -168,8 +168,11 @@ impl Part {
             columns,
             eliminated: 0,
         };
-        let length = padded(front.border) * padded(front.border);
-        self.arenas[front.arena][front.contribution..front.contribution + length].fill(0.0);
+        // Without children nothing is added to the contribution before it is formed.
+        if !children.is_empty() {
+            let length = padded(front.border) * padded(front.border);
+            self.arenas[front.arena][front.contribution..front.contribution + length].fill(0.0);
+        }
     }
 
     /// Adds the matrix's own entries.
@@ -303,9 +306,15 @@ impl Part {
                 [front.contribution..front.contribution + border * border];
             let a = &self.panels[place.panel..place.panel + done * ld];
             let w = &self.w[..done * ld + 4];
+            let fresh = front.children.is_empty();
             for (tile, columns) in square.chunks_exact_mut(4 * border).enumerate() {
                 let j = 4 * tile;
-                subtract::<V>(a, w, ld, pivots + j, pivots + j, columns, border, j);
+                let row = pivots + j;
+                if fresh {
+                    subtract::<V, true>(a, w, ld, row, row, columns, border, j);
+                } else {
+                    subtract::<V, false>(a, w, ld, row, row, columns, border, j);
+                }
             }
         }
         counts

@@ -2,13 +2,15 @@
 
 use super::lanes::{LANES, Vector};
 
-/// C[c_row.., ..] −= Σ A[row.., k] W[j.., k], for up to four columns of C.
+/// C[c_row.., ..] −= Σ A[row.., k] W[j.., k], for up to four columns of C; where `FRESH`, C is
+/// overwritten, as if it had been zero.
 ///
-/// `a` and `w` are columns of length `ld`, with four more numbers at the end of `w`; `c` is up to four columns of length `c_ld`, of which
-/// rows from `c_row` on match rows from `row` on of `a`, all of them whole vectors.
+/// `a` and `w` are columns of length `ld`, with four more numbers at the end of `w`; `c` is up to
+/// four columns of length `c_ld`, of which rows from `c_row` on match rows from `row` on of `a`, all
+/// of them whole vectors.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub(super) fn subtract<V: Vector>(
+pub(super) fn subtract<V: Vector, const FRESH: bool>(
     a: &[f64],
     w: &[f64],
     ld: usize,
@@ -21,19 +23,19 @@ pub(super) fn subtract<V: Vector>(
     let mut done = 0;
     let rows = c_ld - c_row;
     while rows - done >= 3 * LANES {
-        tile::<V, 3>(a, w, ld, row + done, j, c, c_ld, c_row + done);
+        tile::<V, 3, FRESH>(a, w, ld, row + done, j, c, c_ld, c_row + done);
         done += 3 * LANES;
     }
     match (rows - done) / LANES {
-        2 => tile::<V, 2>(a, w, ld, row + done, j, c, c_ld, c_row + done),
-        1 => tile::<V, 1>(a, w, ld, row + done, j, c, c_ld, c_row + done),
+        2 => tile::<V, 2, FRESH>(a, w, ld, row + done, j, c, c_ld, c_row + done),
+        1 => tile::<V, 1, FRESH>(a, w, ld, row + done, j, c, c_ld, c_row + done),
         _ => {}
     }
 }
 
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-fn tile<V: Vector, const R: usize>(
+fn tile<V: Vector, const R: usize, const FRESH: bool>(
     a: &[f64],
     w: &[f64],
     ld: usize,
@@ -43,7 +45,8 @@ fn tile<V: Vector, const R: usize>(
     c_ld: usize,
     c_row: usize,
 ) {
-    let mut sums = [[V::splat(0.0); R]; 4];
+    let zero = V::splat(0.0);
+    let mut sums = [[zero; R]; 4];
     let depth = a.len() / ld;
     assert!(row + R * LANES <= ld && w.len() >= depth * ld + 4 && j <= ld);
     for k in 0..depth {
@@ -66,7 +69,8 @@ fn tile<V: Vector, const R: usize>(
     for (column, sums) in c.chunks_exact_mut(c_ld).zip(&sums) {
         let (column, _) = column[c_row..].as_chunks_mut::<LANES>();
         for (c, sum) in column.iter_mut().zip(sums) {
-            V::load(c).minus(*sum).store(c);
+            let before = if FRESH { zero } else { V::load(c) };
+            before.minus(*sum).store(c);
         }
     }
 }
