@@ -22,15 +22,11 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     pub(super) fn velocities(&mut self, start: usize, base: &Screw<Sp, Dual<N, FUSED>>) {
         for j in 0..self.joints {
             let axis = &self.fixed.axes[j];
-            let mut velocity = match self.fixed.parents[j] {
-                Some(parent) => self.passes.velocity[parent],
-                None => *base,
-            };
+            let velocity = self.fixed.carried(j, &mut self.passes.velocity, base);
             let turned = axis.across(&velocity.value());
             velocity.nudge(Self::lane(start, j), &turned, -1.0);
             velocity.shift(axis, self.rates[j]);
             velocity.nudge(Self::lane(start, self.joints + j), axis, 1.0);
-            self.passes.velocity[j] = velocity;
         }
     }
 
@@ -39,49 +35,70 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     pub(super) fn inwards(&mut self, start: usize) -> Screw<Sp, Dual<N, FUSED>> {
         let mut total = Screw::zero();
         for j in (0..self.joints).rev() {
-            let force = self.fixed.handed(start, j, self.passes.force[j]);
-            match self.fixed.parents[j] {
-                Some(parent) => self.passes.force[parent].add(&force),
-                None => total.add(&force),
-            }
+            self.fixed
+                .hand_on(start, j, &mut self.passes.force, &mut total);
         }
         total
     }
 
-    /// Acceleration of body `j` from that of its carrier, but for that of its joint; `across` is
-    /// axis × velocity.
+    /// Accelerations of body `j`, but for that of its joint, from that of its carrier or, where it
+    /// stands on the base, from `base`; `across` is axis × velocity.
     #[inline(always)]
-    pub(super) fn carried(
-        &self,
+    pub(super) fn acceleration(
+        &mut self,
         start: usize,
         j: usize,
-        mut acceleration: Screw<Sp, Dual<N, FUSED>>,
+        base: &Screw<Sp, Dual<N, FUSED>>,
         across: &Screw<Sp, Dual<N, FUSED>>,
-    ) -> Screw<Sp, Dual<N, FUSED>> {
+    ) {
+        let acceleration = self.fixed.carried(j, &mut self.passes.acceleration, base);
         let turned = self.fixed.axes[j].across(&acceleration.value());
         acceleration.nudge(Self::lane(start, j), &turned, -1.0);
         acceleration.add_scaled(across, -self.rates[j]);
         let lane = Self::lane(start, self.joints + j);
         acceleration.nudge(lane, &across.value(), -1.0);
-        acceleration
     }
 }
 
 impl<Sp: Space> Configuration<Sp> {
-    /// A force on body `j` as its carrier sees it.
+    /// Gives body `j` the motion of its carrier or, where it stands on the base, `base`.
     #[inline(always)]
-    pub(super) fn handed<const N: usize, const FUSED: bool>(
+    pub(super) fn carried<'m, S: Scalar>(
+        &self,
+        j: usize,
+        motions: &'m mut [Screw<Sp, S>],
+        base: &Screw<Sp, S>,
+    ) -> &'m mut Screw<Sp, S> {
+        let (before, rest) = motions.split_at_mut(j);
+        let from = match self.parents[j] {
+            Some(parent) => &before[parent],
+            None => base,
+        };
+        rest[0] = *from;
+        &mut rest[0]
+    }
+
+    /// Adds the force on body `j`, as its carrier sees it, to that on the carrier or, where it
+    /// stands on the base, to `base`.
+    #[inline(always)]
+    pub(super) fn hand_on<const N: usize, const FUSED: bool>(
         &self,
         start: usize,
         j: usize,
-        mut force: Screw<Sp, Dual<N, FUSED>>,
-    ) -> Screw<Sp, Dual<N, FUSED>> {
+        forces: &mut [Screw<Sp, Dual<N, FUSED>>],
+        base: &mut Screw<Sp, Dual<N, FUSED>>,
+    ) {
+        let (before, rest) = forces.split_at_mut(j);
+        let force = &rest[0];
+        let to = match self.parents[j] {
+            Some(parent) => &mut before[parent],
+            None => base,
+        };
+        to.add(force);
         let lane = j.checked_sub(start).filter(|&lane| lane < N);
         if lane.is_some() {
-            let turned = self.axes[j].across_force(&force.value());
-            force.nudge(lane, &turned, 1.0);
+            to.nudge(lane, &self.axes[j].across_force(&force.value()), 1.0);
         }
-        force
     }
 }
 
@@ -118,17 +135,13 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for First<'_, Sp, N, F
         // Forces with all accelerations held.
         of.velocities(start, &base);
         let held = of.acceleration.lifted();
-        for (j, body) in of.fixed.bodies.iter().enumerate() {
-            let velocity = of.passes.velocity[j];
-            let across = of.fixed.axes[j].across(&velocity);
-            let from = match of.fixed.parents[j] {
-                Some(parent) => of.passes.acceleration[parent],
-                None => held,
-            };
-            let mut acceleration = of.carried(start, j, from, &across);
+        for j in 0..n {
+            let across = of.fixed.axes[j].across(&of.passes.velocity[j]);
+            of.acceleration(start, j, &held, &across);
+            let acceleration = &mut of.passes.acceleration[j];
             acceleration.shift(&of.fixed.axes[j], of.accelerations[j]);
-            of.passes.acceleration[j] = acceleration;
-            of.passes.force[j] = body.force(&velocity, &body.at_center(&velocity), &acceleration);
+            let (body, velocity) = (&of.fixed.bodies[j], &of.passes.velocity[j]);
+            of.passes.force[j] = body.force(velocity, &body.at_center(velocity), acceleration);
         }
         let mut total = of.inwards(start);
         let own = &of.fixed.base;

@@ -103,32 +103,30 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
         of.velocities(start, &base_velocity);
         let mut couple = Sp::Angle::<f64>::zero();
         for j in 0..n {
+            let across = of.fixed.axes[j].across(&of.passes.velocity[j]);
+            of.acceleration(start, j, &base_acceleration, &across);
             let body = &of.fixed.bodies[j];
             let axis = &of.fixed.axes[j];
-            let velocity = of.passes.velocity[j];
-            let across = axis.across(&velocity);
-            let (from, mut motion) = match of.fixed.parents[j] {
-                Some(p) => (of.passes.acceleration[p], of.adjoint.virtual_motion[p]),
-                None => (base_acceleration, base_virtual),
-            };
-            let mut acceleration = of.carried(start, j, from, &across);
+            let acceleration = &mut of.passes.acceleration[j];
             acceleration.add_column(axis, of.tangents[sweep].joints[j]);
-            motion.nudge(lane(j), &axis.across(&motion.value()), -1.0);
-            motion.shift(axis, of.adjoint.rates[j]);
-            let at_center = body.at_center(&velocity);
-            let beside = body.at_center(&motion);
-            let weight = body.couple((&velocity, &at_center), (&motion, &beside));
-            add_values::<Sp, N, FUSED>(&mut couple, &weight);
-            of.passes.force[j] = body.force(&velocity, &at_center, &acceleration);
-            of.passes.acceleration[j] = acceleration;
             let adjoint = &mut of.adjoint;
-            adjoint.momentum[j] = body.momentum(&velocity, &at_center);
-            adjoint.virtual_momentum[j] = body.momentum(&motion, &beside);
+            let motion = of
+                .fixed
+                .carried(j, &mut adjoint.virtual_motion, &base_virtual);
+            motion.nudge(lane(j), &axis.across(&motion.value()), -1.0);
+            motion.shift(axis, adjoint.rates[j]);
+            let velocity = &of.passes.velocity[j];
+            let at_center = body.at_center(velocity);
+            let beside = body.at_center(motion);
+            let weight = body.couple((velocity, &at_center), (motion, &beside));
+            add_values::<Sp, N, FUSED>(&mut couple, &weight);
+            of.passes.force[j] = body.force(velocity, &at_center, acceleration);
+            adjoint.momentum[j] = body.momentum(velocity, &at_center);
+            adjoint.virtual_momentum[j] = body.momentum(motion, &beside);
             adjoint.weight[j] = Screw {
                 angular: weight,
                 linear: Sp::Length::<Dual<N, FUSED>>::zero(),
             };
-            adjoint.virtual_motion[j] = motion;
             adjoint.across[j] = across;
         }
         let own = &of.fixed.base;
@@ -151,13 +149,9 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
         };
         let rigid: Screw<Sp, Dual<N, FUSED>> = rigid.lifted();
         for j in 0..n {
-            let mut motion = match of.fixed.parents[j] {
-                Some(parent) => of.adjoint.rigid[parent],
-                None => rigid,
-            };
+            let motion = of.fixed.carried(j, &mut of.adjoint.rigid, &rigid);
             let turned = of.fixed.axes[j].across(&motion.value());
             motion.nudge(lane(j), &turned, -1.0);
-            of.adjoint.rigid[j] = motion;
         }
 
         // Inwards: the gradient.
@@ -167,42 +161,38 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
             let adjoint = &mut of.adjoint;
             let axis = &of.fixed.axes[j];
             let body = &of.fixed.bodies[j];
-            let rigid = adjoint.rigid[j];
+            let rigid = &adjoint.rigid[j];
             // Until now the weight holds this body's couple and what its children handed on.
-            let rigid_momentum = body.momentum(&rigid, &body.at_center(&rigid));
+            let rigid_momentum = body.momentum(rigid, &body.at_center(rigid));
             adjoint.weight[j].add(&rigid_momentum);
-            let (force, momentum) = (of.passes.force[j], adjoint.momentum[j]);
-            let (weighs, beside) = (adjoint.weight[j], adjoint.virtual_momentum[j]);
-            let across = adjoint.across[j];
+            let (force, momentum) = (&of.passes.force[j], &adjoint.momentum[j]);
+            let (weighs, beside) = (&adjoint.weight[j], &adjoint.virtual_momentum[j]);
+            let across = &adjoint.across[j];
 
             let mut pulled = axis.across(&of.passes.acceleration[j]);
             pulled.add_scaled(&across.cross(&of.passes.velocity[j]), -1.0);
-            let by_position = axis.across(&adjoint.virtual_motion[j]).dot(&force)
-                + across.dot(&weighs)
-                + pulled.dot(&beside)
-                + axis.across(&rigid).dot(&momentum);
+            let by_position = axis.across(&adjoint.virtual_motion[j]).dot(force)
+                + across.dot(weighs)
+                + pulled.dot(beside)
+                + axis.across(rigid).dot(momentum);
             adjoint.direct[j] = -by_position;
             let by_rate = weighs.dot(axis);
-            adjoint.direct[n + j] = by_rate.plus_multiple(across.dot(&beside), -2.0);
+            adjoint.direct[n + j] = by_rate.plus_multiple(across.dot(beside), -2.0);
             let joint = adjoint.implied.len() - n + j;
             adjoint.implied[joint] = beside.dot(axis);
 
-            let force = of.fixed.handed(start, j, force);
-            let momentum = of.fixed.handed(start, j, momentum);
-            let weighs = of.fixed.handed(start, j, weighs);
-            let beside = of.fixed.handed(start, j, beside);
-            match of.fixed.parents[j] {
-                Some(parent) => {
-                    of.passes.force[parent].add(&force);
-                    adjoint.momentum[parent].add(&momentum);
-                    adjoint.weight[parent].add(&weighs);
-                    adjoint.virtual_momentum[parent].add(&beside);
-                }
-                None => {
-                    weight.add(&weighs);
-                    virtual_momentum.add(&beside);
-                }
-            }
+            let fixed = &of.fixed;
+            // What of these two reaches the base is of no use.
+            let mut forgotten = Screw::zero();
+            fixed.hand_on(start, j, &mut of.passes.force, &mut forgotten);
+            fixed.hand_on(start, j, &mut adjoint.momentum, &mut forgotten);
+            fixed.hand_on(start, j, &mut adjoint.weight, &mut weight);
+            fixed.hand_on(
+                start,
+                j,
+                &mut adjoint.virtual_momentum,
+                &mut virtual_momentum,
+            );
         }
         weight.add_scaled(&base_velocity.cross_force(&virtual_momentum), -1.0);
         let implied = weight.iter().chain(virtual_momentum.iter());

@@ -80,23 +80,15 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         let motions = &mut self.torque.motion[which];
         let momenta = &mut self.torque.momentum[which];
         for (j, body) in fixed.bodies.iter().enumerate() {
-            let mut motion = match fixed.parents[j] {
-                Some(parent) => motions[parent],
-                None => *base,
-            };
+            let motion = fixed.carried(j, motions, base);
             let turned = fixed.axes[j].across(&motion.value());
             motion.nudge(Self::lane(start, j), &turned, -1.0);
             motion.shift(&fixed.axes[j], rates[j]);
-            motions[j] = motion;
-            momenta[j] = body.momentum(&motion, &body.at_center(&motion));
+            momenta[j] = body.momentum(motion, &body.at_center(motion));
         }
         let mut total = fixed.base.momentum(base, &fixed.base.at_center(base));
         for j in (0..momenta.len()).rev() {
-            let momentum = fixed.handed(start, j, momenta[j]);
-            match fixed.parents[j] {
-                Some(parent) => momenta[parent].add(&momentum),
-                None => total.add(&momentum),
-            }
+            fixed.hand_on(start, j, momenta, &mut total);
         }
         total
     }
