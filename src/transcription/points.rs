@@ -5,12 +5,14 @@ use super::functions::Node;
 use super::node_derivatives::NodeDerivatives;
 use crate::autodiff::Function;
 use crate::ocp::Ocp;
-use rayon::prelude::*;
+use crate::parallel;
 
 /// Least work, in points times inputs squared, that is worth waking threads for.
 const LEAST_WORK: usize = 12_000;
 /// Values take about this part of the time of derivatives.
 const VALUES: usize = 10;
+/// Pieces for each thread to take, so that one that comes late has less to do.
+const SHARES: usize = 8;
 /// Most threads.
 const MOST: usize = 8;
 
@@ -123,22 +125,14 @@ impl<'a, O: Ocp> Points<'a, O> {
             return;
         }
         let fractions = &self.fractions;
-        let stretch = |worker: &mut Worker<'a, O>, first: usize, out: &mut [f64]| {
-            for (k, out) in (first..).zip(out.chunks_exact_mut(width)) {
+        let share = points.div_ceil(SHARES * count);
+        let shares = out.chunks_mut(share * width).enumerate();
+        parallel::for_each(&mut self.workers[..count], shares, |worker, (s, out)| {
+            for (k, out) in (s * share..).zip(out.chunks_exact_mut(width)) {
                 iterate.load(k, fractions[k], &mut worker.inputs);
                 body(worker, k, out);
             }
-        };
-        let share = points.div_ceil(count);
-        if count == 1 {
-            stretch(&mut self.workers[0], 0, out);
-        } else {
-            let workers = self.workers[..count].par_iter_mut();
-            let shares = out.par_chunks_mut(share * width).enumerate();
-            workers
-                .zip(shares)
-                .for_each(|(worker, (s, out))| stretch(worker, s * share, out));
-        }
+        });
     }
 }
 

@@ -8,7 +8,7 @@ use super::amalgamation::{Merged, cost};
 use std::ops::Range;
 
 /// Parts beside the one above them.
-const PARTS: usize = 8;
+pub(super) const PARTS: usize = 8;
 
 /// How much more than an equal share of the work a subtree may have and not be divided itself.
 const SLACK: f64 = 1.1;

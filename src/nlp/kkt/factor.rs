@@ -1,10 +1,11 @@
 //! Numerical factorisation, part by part of the tree.
 
+use super::division::PARTS;
 use super::noise;
 use super::part::Part;
 use super::symbolic::Symbolic;
 use super::update::largest_finite;
-use rayon::prelude::*;
+use crate::parallel;
 
 /// The matrix has a value that is infinite or not a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -78,9 +79,15 @@ impl Factors {
         let Some((top, below)) = self.parts.split_last_mut() else {
             return Ok(Inertia::default());
         };
-        below
-            .par_iter_mut()
-            .for_each(|part| part.factor(&[], symbolic, &matrix));
+        // To ask for the number of threads would start them.
+        if !below.is_empty() {
+            let threads = below.len().min(rayon::current_num_threads());
+            // Workers have nothing of their own: a part has all that is needed.
+            let mut workers = [(); PARTS];
+            parallel::for_each(&mut workers[..threads], below.iter_mut(), |(), part| {
+                part.factor(&[], symbolic, &matrix);
+            });
+        }
         top.factor(below, symbolic, &matrix);
         let rows = self.parts.iter().map(|part| part.rows).max().unwrap_or(0);
         if self.vector.len() < rows {
