@@ -20,9 +20,10 @@ test-threads: ## four threads solving for a minute, against one thread
 oracle: ## hold plans and golden values against Pinocchio, SPART and MuJoCo
 	scripts/oracle.sh
 
-bench: ## time the program against CasADi, yapss, maptor and mpopt, one table of ratios; scaling exponents
+bench: ## time the program against CasADi, yapss, maptor and mpopt, one table of ratios; scaling, roofline
 	scripts/bench.sh
 	cargo bench --locked --bench scaling
+	cargo bench --locked --bench kkt
 
 bench-quick: ## the same with fewer runs and without the slowest peer
 	scripts/bench.sh --quick
