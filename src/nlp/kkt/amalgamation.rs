@@ -1,7 +1,7 @@
 //! Small fronts are merged where the fewer steps are worth the zeros they bring.
 
 use super::graph::Graph;
-use super::ordering::RawFront;
+use super::ordering::RawFronts;
 use super::symbolic::padded;
 
 /// A front by its unknowns, in postorder.
@@ -25,7 +25,7 @@ pub(super) fn cost(c: usize, b: usize) -> f64 {
 }
 
 /// Merges fronts into their parents and puts the tree into postorder.
-pub(super) fn merge(graph: &Graph, raw: &[RawFront]) -> Vec<Merged> {
+pub(super) fn merge(graph: &Graph, raw: &RawFronts) -> Vec<Merged> {
     let count = raw.len();
     let unknowns = |nodes: &[u32]| -> usize {
         nodes
@@ -33,11 +33,11 @@ pub(super) fn merge(graph: &Graph, raw: &[RawFront]) -> Vec<Merged> {
             .map(|&node| graph.weight(node as usize) as usize)
             .sum()
     };
-    let mut pivots: Vec<usize> = raw.iter().map(|front| unknowns(&front.pivots)).collect();
-    let border: Vec<usize> = raw.iter().map(|front| unknowns(&front.border)).collect();
+    let mut pivots: Vec<usize> = (0..count).map(|f| unknowns(raw.pivots.get(f))).collect();
+    let border: Vec<usize> = (0..count).map(|f| unknowns(raw.borders.get(f))).collect();
     let mut into: Vec<usize> = (0..count).collect();
     for front in 0..count {
-        let Some(parent) = raw[front].parent else {
+        let Some(parent) = raw.parents[front] else {
             continue;
         };
         let (c, b) = (pivots[front], border[front]);
@@ -55,7 +55,7 @@ pub(super) fn merge(graph: &Graph, raw: &[RawFront]) -> Vec<Merged> {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); count];
     let mut roots = Vec::new();
     for front in (0..count).filter(|&front| into[front] == front) {
-        match raw[front].parent.map(|parent| into[parent]) {
+        match raw.parents[front].map(|parent| into[parent]) {
             Some(parent) => children[parent].push(front),
             None => roots.push(front),
         }
@@ -81,9 +81,9 @@ pub(super) fn merge(graph: &Graph, raw: &[RawFront]) -> Vec<Merged> {
         merged.push(Merged {
             pivots: parts[front]
                 .iter()
-                .flat_map(|&part| expand(&raw[part].pivots))
+                .flat_map(|&part| expand(raw.pivots.get(part)))
                 .collect(),
-            border: expand(&raw[front].border),
+            border: expand(raw.borders.get(front)),
             parent: None,
         });
     }

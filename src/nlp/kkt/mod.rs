@@ -11,6 +11,7 @@ mod division;
 mod factor;
 mod graph;
 mod lanes;
+mod lists;
 mod noise;
 mod ordering;
 mod pairs;

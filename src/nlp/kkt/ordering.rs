@@ -5,19 +5,27 @@
 //! unknown, or two that make a natural pivot of order two together.
 
 use super::graph::Graph;
+use super::lists::Lists;
 
 /// No node, no front.
 const NONE: u32 = u32::MAX;
 
-/// A front as minimum degree leaves it: its pivots, and the nodes its elimination connects.
+/// Fronts as minimum degree leaves them, parents after children.
 #[derive(Debug, Clone, Default)]
-pub(super) struct RawFront {
-    /// Nodes eliminated here, in order.
-    pub pivots: Vec<u32>,
-    /// Nodes eliminated later, in no order.
-    pub border: Vec<u32>,
-    /// Index of the front that takes this one's contribution; it comes later in the list.
-    pub parent: Option<usize>,
+pub(super) struct RawFronts {
+    /// Nodes eliminated in each front, in order.
+    pub pivots: Lists,
+    /// Nodes that this connects and that are eliminated later, in no order.
+    pub borders: Lists,
+    /// Index of the front that takes each one's contribution.
+    pub parents: Vec<Option<usize>>,
+}
+
+impl RawFronts {
+    /// Number of fronts.
+    pub(super) fn len(&self) -> usize {
+        self.parents.len()
+    }
 }
 
 /// Which nodes have so many neighbours that they are ordered last, out of the quotient graph.
@@ -28,10 +36,10 @@ pub(super) fn dense(graph: &Graph) -> Vec<bool> {
         .collect()
 }
 
-/// Fronts of `graph` in elimination order, parents after children.
+/// Fronts of `graph` in elimination order.
 ///
 /// Nodes of a lower `group` are eliminated before those of a higher one, `dense` ones last of all.
-pub(super) fn fronts(graph: &Graph, group: &[u8], dense: &[bool]) -> Vec<RawFront> {
+pub(super) fn fronts(graph: &Graph, group: &[u8], dense: &[bool]) -> RawFronts {
     let mut quotient = Quotient::new(graph, group, dense);
     let groups = group.iter().copied().max().unwrap_or(0);
     for group in 0..=groups {
@@ -39,40 +47,42 @@ pub(super) fn fronts(graph: &Graph, group: &[u8], dense: &[bool]) -> Vec<RawFron
             quotient.eliminate(pivot);
         }
     }
-    let mut fronts = quotient.fronts;
+    let fronts = quotient.fronts;
     if dense.contains(&true) {
-        append_dense(graph, dense, &mut fronts);
+        return with_dense(graph, dense, fronts);
     }
     fronts
 }
 
 /// Adds the dense nodes as a last front, and to the border of every front they touch.
-fn append_dense(graph: &Graph, dense: &[bool], fronts: &mut Vec<RawFront>) {
+fn with_dense(graph: &Graph, dense: &[bool], mut fronts: RawFronts) -> RawFronts {
     let root = fronts.len();
     let mut touched: Vec<Vec<u32>> = vec![Vec::new(); root];
+    let mut borders = Lists::default();
     for index in 0..root {
         let mut found = std::mem::take(&mut touched[index]);
-        for &pivot in &fronts[index].pivots {
+        for &pivot in fronts.pivots.get(index) {
             let neighbours = graph.neighbours(pivot as usize).iter();
             found.extend(neighbours.filter(|&&other| dense[other as usize]));
         }
         found.sort_unstable();
         found.dedup();
-        fronts[index].border.extend(&found);
+        borders.add(fronts.borders.get(index).iter().chain(&found).copied());
         if !found.is_empty() {
-            match fronts[index].parent {
+            match fronts.parents[index] {
                 Some(parent) => touched[parent].extend(&found),
-                None => fronts[index].parent = Some(root),
+                None => fronts.parents[index] = Some(root),
             }
         }
     }
-    fronts.push(RawFront {
-        pivots: (0..dense.len() as u32)
-            .filter(|&node| dense[node as usize])
-            .collect(),
-        border: Vec::new(),
-        parent: None,
-    });
+    let nodes = 0..dense.len() as u32;
+    fronts
+        .pivots
+        .add(nodes.filter(|&node| dense[node as usize]));
+    borders.add([]);
+    fronts.borders = borders;
+    fronts.parents.push(None);
+    fronts
 }
 
 /// The quotient graph: live variables, and elements standing for eliminated ones.
@@ -81,11 +91,12 @@ struct Quotient<'a> {
     /// Unknowns behind a live variable; 0 where it is eliminated or has joined another.
     weight: Vec<u32>,
     /// Variables next to a variable by an entry of the matrix.
-    variables: Vec<Vec<u32>>,
-    /// Elements next to a variable.
-    elements: Vec<Vec<u32>>,
-    /// Variables of an element; an element has the number of its first pivot.
-    members: Vec<Vec<u32>>,
+    variables: Lists,
+    /// Elements next to a variable. Each has come in the place of a variable at least, so that there
+    /// is room for them where there was for those.
+    elements: Lists,
+    /// Variables of the element that each front has become.
+    members: Lists,
     /// Weight of an element's live variables.
     size: Vec<u32>,
     /// Front of an element; `NONE` where there is no such element.
@@ -104,7 +115,11 @@ struct Quotient<'a> {
     /// |element \ current element|, and the stamp it is of.
     outside: Vec<(u32, u32)>,
     left: u32,
-    fronts: Vec<RawFront>,
+    fronts: RawFronts,
+    /// Variables of the current element.
+    current: Vec<u32>,
+    /// Nodes eliminated with it.
+    pivots: Vec<u32>,
     /// (hash, variable) of the current element.
     hashes: Vec<(u32, u32)>,
 }
@@ -117,17 +132,16 @@ impl<'a> Quotient<'a> {
             .collect();
         let left: u32 = weight.iter().sum();
         let groups = usize::from(group.iter().copied().max().unwrap_or(0)) + 1;
-        let variables: Vec<Vec<u32>> = (0..nodes)
-            .map(|node| {
-                let neighbours = graph.neighbours(node).iter().copied();
-                neighbours.filter(|&other| !dense[other as usize]).collect()
-            })
-            .collect();
+        let mut variables = Lists::default();
+        for node in 0..nodes {
+            let neighbours = graph.neighbours(node).iter().copied();
+            variables.add(neighbours.filter(|&other| !dense[other as usize]));
+        }
         let mut quotient = Self {
             group,
+            elements: variables.emptied(),
             variables,
-            elements: vec![Vec::new(); nodes],
-            members: vec![Vec::new(); nodes],
+            members: Lists::default(),
             size: vec![0; nodes],
             front: vec![NONE; nodes],
             joined: vec![NONE; nodes],
@@ -141,13 +155,15 @@ impl<'a> Quotient<'a> {
             stamp: 0,
             outside: vec![(0, 0); nodes],
             left,
-            fronts: Vec::new(),
+            fronts: RawFronts::default(),
+            current: Vec::new(),
+            pivots: Vec::new(),
             hashes: Vec::new(),
             weight,
         };
         // From the last to the first, so that lists begin with low numbers.
         for node in (0..nodes).rev().filter(|&node| !dense[node]) {
-            let neighbours = quotient.variables[node].iter();
+            let neighbours = quotient.variables.get(node).iter();
             quotient.degree[node] = neighbours.map(|&v| quotient.weight[v as usize]).sum();
             quotient.insert(node);
         }
@@ -198,12 +214,9 @@ impl<'a> Quotient<'a> {
     }
 
     /// Nodes behind a variable.
-    fn push_nodes(joined: &[u32], variable: u32, into: &mut Vec<u32>) {
-        let mut node = variable;
-        while node != NONE {
-            into.push(node);
-            node = joined[node as usize];
-        }
+    fn nodes(joined: &[u32], variable: u32) -> impl Iterator<Item = u32> {
+        let next = |&node: &u32| Some(joined[node as usize]).filter(|&next| next != NONE);
+        std::iter::successors(Some(variable), next)
     }
 
     /// Makes variable `into` stand for variable `from` as well.
@@ -213,8 +226,8 @@ impl<'a> Quotient<'a> {
         self.last_joined[into] = self.last_joined[from];
         self.weight[into] += self.weight[from];
         self.weight[from] = 0;
-        self.variables[from] = Vec::new();
-        self.elements[from] = Vec::new();
+        self.variables.clear(from);
+        self.elements.clear(from);
     }
 
     /// Eliminates `pivot`: it becomes an element, a front.
@@ -222,22 +235,22 @@ impl<'a> Quotient<'a> {
         let index = self.fronts.len();
         self.remove(pivot);
         let mut members = self.gather(pivot, index);
-        let pivot_weight = self.weight[pivot];
-        self.left -= pivot_weight;
+        self.left -= self.weight[pivot];
 
         let stamp = self.measure_outside(&members);
         let mut size: u32 = members.iter().map(|&v| self.weight[v as usize]).sum();
-        let mut border = Vec::with_capacity(members.len());
-        let mut pivots = Vec::new();
-        Self::push_nodes(&self.joined, pivot as u32, &mut pivots);
+        let mut pivots = std::mem::take(&mut self.pivots);
+        pivots.clear();
+        pivots.extend(Self::nodes(&self.joined, pivot as u32));
 
         // Mass elimination: what is connected to nothing but this element goes with it.
         members.retain(|&member| {
             let variable = member as usize;
             self.prune(variable, pivot, index, stamp);
-            let alone = self.elements[variable].is_empty() && self.variables[variable].is_empty();
+            let alone =
+                self.elements.get(variable).is_empty() && self.variables.get(variable).is_empty();
             if alone && self.group[variable] == self.group[pivot] {
-                Self::push_nodes(&self.joined, member, &mut pivots);
+                pivots.extend(Self::nodes(&self.joined, member));
                 self.remove(variable);
                 size -= self.weight[variable];
                 self.left -= self.weight[variable];
@@ -246,55 +259,50 @@ impl<'a> Quotient<'a> {
             }
             true
         });
-        for &member in &members {
-            Self::push_nodes(&self.joined, member, &mut border);
-        }
-        self.update_degrees(&members, pivot, size, stamp);
+        self.fronts.pivots.add(pivots.iter().copied());
+        self.pivots = pivots;
+        let joined = &self.joined;
+        let border = members.iter();
+        let border = border.flat_map(|&member| Self::nodes(joined, member));
+        self.fronts.borders.add(border);
+        self.fronts.parents.push(None);
+
+        self.update_degrees(&members, pivot, size);
         self.merge_indistinguishable(&mut members);
         for &member in &members {
             self.insert(member as usize);
         }
         self.weight[pivot] = 0;
-        self.variables[pivot] = Vec::new();
-        self.elements[pivot] = Vec::new();
-        self.members[pivot] = members;
+        self.variables.clear(pivot);
+        self.elements.clear(pivot);
+        self.members.add(members.iter().copied());
+        self.current = members;
         self.size[pivot] = size;
         self.front[pivot] = index as u32;
-        self.fronts.push(RawFront {
-            pivots,
-            border,
-            parent: None,
-        });
     }
 
     /// Live variables next to `pivot`; the elements next to it are absorbed.
     fn gather(&mut self, pivot: usize, index: usize) -> Vec<u32> {
         let stamp = self.new_stamp();
         self.mark[pivot] = stamp;
-        let mut members = Vec::new();
-        let variables = std::mem::take(&mut self.variables[pivot]);
-        let mut add = |list: &[u32], mark: &mut [u32], weight: &[u32]| {
+        let mut members = std::mem::take(&mut self.current);
+        members.clear();
+        let mut add = |list: &[u32]| {
             for &variable in list {
                 let v = variable as usize;
-                if weight[v] > 0 && mark[v] != stamp {
-                    mark[v] = stamp;
+                if self.weight[v] > 0 && self.mark[v] != stamp {
+                    self.mark[v] = stamp;
                     members.push(variable);
                 }
             }
         };
-        add(&variables, &mut self.mark, &self.weight);
-        for element in std::mem::take(&mut self.elements[pivot]) {
-            let list = std::mem::take(&mut self.members[element as usize]);
-            add(&list, &mut self.mark, &self.weight);
-            self.absorb(element, index);
+        add(self.variables.get(pivot));
+        for &element in self.elements.get(pivot) {
+            let front = std::mem::replace(&mut self.front[element as usize], NONE) as usize;
+            add(self.members.get(front));
+            self.fronts.parents[front] = Some(index);
         }
         members
-    }
-
-    fn absorb(&mut self, element: u32, index: usize) {
-        let front = std::mem::replace(&mut self.front[element as usize], NONE);
-        self.fronts[front as usize].parent = Some(index);
-        self.members[element as usize] = Vec::new();
     }
 
     /// For every element next to a member: the weight of its variables that are no members.
@@ -302,7 +310,7 @@ impl<'a> Quotient<'a> {
         let stamp = self.stamp;
         for &member in members {
             let weight = self.weight[member as usize];
-            for &element in &self.elements[member as usize] {
+            for &element in self.elements.get(member as usize) {
                 let e = element as usize;
                 if self.front[e] == NONE {
                     continue;
@@ -319,38 +327,43 @@ impl<'a> Quotient<'a> {
 
     /// Takes out of a member's lists what the new element stands for.
     fn prune(&mut self, variable: usize, pivot: usize, index: usize, stamp: u32) {
-        let mut elements = std::mem::take(&mut self.elements[variable]);
-        elements.retain(|&element| {
+        let (front, outside) = (&mut self.front, &self.outside);
+        let parents = &mut self.fronts.parents;
+        self.elements.retain(variable, |element| {
             let e = element as usize;
-            if self.front[e] == NONE {
+            if front[e] == NONE {
                 return false;
             }
-            if self.outside[e].1 == 0 {
-                // All of it lies inside the new element.
-                self.absorb(element, index);
+            if outside[e].1 == 0 {
+                // All of it lies inside the new element, which absorbs it.
+                let front = std::mem::replace(&mut front[e], NONE);
+                parents[front as usize] = Some(index);
                 return false;
             }
             true
         });
-        self.elements[variable] = elements;
         let (mark, weight) = (&self.mark, &self.weight);
-        self.variables[variable].retain(|&other| {
+        self.variables.retain(variable, |other| {
             let other = other as usize;
             other != pivot && weight[other] > 0 && mark[other] != stamp
         });
     }
 
-    fn update_degrees(&mut self, members: &[u32], pivot: usize, size: u32, _stamp: u32) {
+    fn update_degrees(&mut self, members: &[u32], pivot: usize, size: u32) {
         self.hashes.clear();
         for &member in members {
             let variable = member as usize;
             self.remove(variable);
             let others = size - self.weight[variable];
-            let beside: u32 = self.variables[variable]
+            let beside: u32 = self
+                .variables
+                .get(variable)
                 .iter()
                 .map(|&v| self.weight[v as usize])
                 .sum();
-            let outside: u32 = self.elements[variable]
+            let outside: u32 = self
+                .elements
+                .get(variable)
                 .iter()
                 .map(|&e| self.outside[e as usize].1)
                 .sum();
@@ -358,11 +371,11 @@ impl<'a> Quotient<'a> {
             self.degree[variable] = (beside + others + outside)
                 .min(self.degree[variable] + others)
                 .min(bound);
-            self.elements[variable].push(pivot as u32);
+            self.elements.push(variable, pivot as u32);
             let sum = |list: &[u32]| list.iter().fold(0_u32, |sum, &v| sum.wrapping_add(v));
-            let hash = sum(&self.variables[variable])
+            let hash = sum(self.variables.get(variable))
                 .wrapping_mul(31)
-                .wrapping_add(sum(&self.elements[variable]));
+                .wrapping_add(sum(self.elements.get(variable)));
             self.hashes.push((hash, member));
         }
     }
@@ -385,7 +398,7 @@ impl<'a> Quotient<'a> {
                     continue;
                 }
                 let stamp = self.new_stamp();
-                let lists = [&self.variables[first], &self.elements[first]];
+                let lists = [self.variables.get(first), self.elements.get(first)];
                 // Elements and variables share their numbers, but no live number is both.
                 for &entry in lists.into_iter().flatten() {
                     self.mark[entry as usize] = stamp;
@@ -394,11 +407,11 @@ impl<'a> Quotient<'a> {
                     let other = other as usize;
                     let same = self.weight[other] > 0
                         && self.group[other] == self.group[first]
-                        && self.variables[other].len() == self.variables[first].len()
-                        && self.elements[other].len() == self.elements[first].len()
-                        && self.variables[other]
-                            .iter()
-                            .chain(&self.elements[other])
+                        && self.variables.get(other).len() == self.variables.get(first).len()
+                        && self.elements.get(other).len() == self.elements.get(first).len()
+                        && [self.variables.get(other), self.elements.get(other)]
+                            .into_iter()
+                            .flatten()
                             .all(|&entry| self.mark[entry as usize] == stamp);
                     if same {
                         let weight = self.weight[other];
