@@ -41,8 +41,8 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         total
     }
 
-    /// Accelerations of body `j`, but for that of its joint, from that of its carrier or, where it
-    /// stands on the base, from `base`; `across` is axis × velocity.
+    /// Finds the acceleration of body `j`, but for that of its joint, from that of its carrier or,
+    /// where it stands on the base, from `base`; `across` is axis × velocity.
     #[inline(always)]
     pub(super) fn acceleration(
         &mut self,
