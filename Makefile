@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 test-threads oracle bench bench-quick bench-parts bench-kkt casadi lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test test-ipopt-3.14 test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -16,6 +16,9 @@ test-ipopt-3.14: ## run the tests against a newer Ipopt, 3.14
 
 test-threads: ## four threads solving for a minute, against one thread
 	cargo test --release --locked --test ipopt for_a_minute -- --ignored
+
+miri: ## look for undefined behaviour and races in the helper threads (needs a nightly Rust with miri)
+	MIRIFLAGS=-Zmiri-ignore-leaks CARGO_TARGET_DIR=target/miri cargo +nightly miri test --locked --lib nlp::threads
 
 oracle: ## hold plans and golden values against Pinocchio, SPART and MuJoCo
 	scripts/oracle.sh

@@ -7,7 +7,6 @@ pub mod config;
 pub mod dynamics;
 pub mod nlp;
 pub mod ocp;
-mod parallel;
 pub mod planner;
 pub mod plot;
 pub mod refine;

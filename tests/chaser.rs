@@ -4,9 +4,11 @@ mod program;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
+use ffsm_ipopt::nlp::threads;
 use ffsm_ipopt::planner::{Plan, Planner, Status};
 use program::Folder;
 use std::fs;
+use std::num::NonZero;
 use std::path::Path;
 
 fn shipped(name: &str) -> (ProblemFile, Plan) {
@@ -122,11 +124,8 @@ fn plans_do_not_depend_on_the_number_of_threads() {
     (problem.mesh.segments, problem.mesh.points) = (12, 5);
     problem.mesh.max_iterations = 1;
     let plan = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| Planner::new().plan(&problem).unwrap())
+        let threads = NonZero::new(threads).unwrap();
+        threads::with(threads, || Planner::new().plan(&problem).unwrap())
     };
     let (one, four) = (plan(1), plan(4));
     assert_eq!(one.linear_solver, "ours");

@@ -578,6 +578,18 @@ fn doctor_finds_a_linear_solver() {
     }
 }
 
+#[test]
+fn the_number_of_threads_is_chosen() {
+    let folder = Folder::new(PROBLEM);
+    let run = folder.run(&["doctor", "--threads", "3"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    let mut words = run.stdout.split_whitespace().rev();
+    assert_eq!([words.next(), words.next()], [Some("3"), Some("threads")]);
+    let run = folder.run(&["plan", "case.toml", "--threads", "0"]);
+    assert_eq!(run.code, 2, "{run:?}");
+    assert!(run.stderr.contains("expected a number from 1"), "{run:?}");
+}
+
 /// Interrupts a command at work on a mesh that takes it long; its folder is returned, which then
 /// holds what was written whole and nothing else.
 #[cfg(unix)]

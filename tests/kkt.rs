@@ -2,7 +2,9 @@
 
 use fastrand::Rng;
 use ffsm_ipopt::nlp::kkt::{Factors, Inertia, NotFinite, Pattern, PatternError, Symbolic};
+use ffsm_ipopt::nlp::threads;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use std::num::NonZero;
 
 /// A symmetric matrix by the entries of its lower triangle.
 #[derive(Clone)]
@@ -406,12 +408,11 @@ fn what_is_cut_along_the_time_axis_has_the_factors_of_any_number_of_threads() {
     assert!(symbolic.concurrency() > 1, "in one piece");
     let right: Vec<f64> = (0..symbolic.len()).map(|_| uniform(&mut rng)).collect();
     let solve = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let threads = NonZero::new(threads).unwrap();
         let mut factors = Factors::new(&symbolic);
-        let inertia = pool.install(|| factors.factor(&symbolic, &values, 1e-8).unwrap());
+        let inertia = threads::with(threads, || {
+            factors.factor(&symbolic, &values, 1e-8).unwrap()
+        });
         let mut x = right.clone();
         factors.solve(&symbolic, &mut x);
         (inertia, x)

@@ -19,8 +19,10 @@ mod table2;
 mod terminal;
 mod verify;
 
+use crate::nlp::threads;
 use crate::report::Build;
 use clap::{Parser, Subcommand};
+use std::num::NonZero;
 use std::process::ExitCode;
 
 /// Exit status of a command that did what it was asked for.
@@ -42,6 +44,10 @@ enum Outcome {
 struct Cli {
     #[command(subcommand)]
     command: Command,
+
+    /// Most threads to use, instead of one a processor; results are the same
+    #[arg(long, global = true, env = "FFSM_THREADS", value_name = "N", value_parser = threads_of)]
+    threads: Option<NonZero<usize>>,
 }
 
 const EXIT_STATUS: &str = "Exit status: 0 solved, 1 internal or I/O failure, 2 bad usage or \
@@ -61,12 +67,22 @@ enum Command {
     Doctor(doctor::Arguments),
 }
 
+/// The number of threads of `--threads`.
+fn threads_of(text: &str) -> Result<NonZero<usize>, &'static str> {
+    text.parse()
+        .map_err(|_| "expected a number from 1, there or in FFSM_THREADS")
+}
+
 /// Runs the command of this process's arguments.
 ///
 /// Results go to standard output, all else to standard error. Bad usage ends the process here
 /// with status 2.
 pub fn run() -> ExitCode {
-    let result = match Cli::parse().command {
+    let Cli { command, threads } = Cli::parse();
+    if let Some(threads) = threads {
+        threads::set_default(threads);
+    }
+    let result = match command {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Table2(arguments) => table2::run(&arguments),

@@ -5,7 +5,7 @@ use super::noise;
 use super::part::Part;
 use super::symbolic::Symbolic;
 use super::update::largest_finite;
-use crate::parallel;
+use crate::nlp::threads;
 
 /// The matrix has a value that is infinite or not a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -55,8 +55,8 @@ impl Factors {
     /// Factorises the matrix with these values of the analysed pattern's entries.
     ///
     /// A pivot is at least `threshold` times the largest entry of its column, or is delayed.
-    /// Large matrices are divided among the threads of rayon's pool; the factors are the same,
-    /// bit by bit, for any number of them.
+    /// Large matrices are divided among the threads ([`threads`]); the factors are the same, bit by bit,
+    /// for any number of them.
     ///
     /// # Errors
     /// [`NotFinite`], the factors then being of no use.
@@ -79,12 +79,11 @@ impl Factors {
         let Some((top, below)) = self.parts.split_last_mut() else {
             return Ok(Inertia::default());
         };
-        // To ask for the number of threads would start them.
         if !below.is_empty() {
-            let threads = below.len().min(rayon::current_num_threads());
+            let count = below.len().min(threads::count());
             // Workers have nothing of their own: a part has all that is needed.
             let mut workers = [(); PARTS];
-            parallel::for_each(&mut workers[..threads], below.iter_mut(), |(), part| {
+            threads::for_each(&mut workers[..count], below.iter_mut(), |(), part| {
                 part.factor(&[], symbolic, &matrix);
             });
         }

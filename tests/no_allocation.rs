@@ -1,0 +1,68 @@
+//! That a solve on several threads allocates nothing; alone in its program, since all are counted.
+
+mod allocations;
+
+use ffsm_ipopt::config::{Overrides, ProblemFile};
+use ffsm_ipopt::nlp::{Control, threads};
+use ffsm_ipopt::planner::{Event, Planner, Status};
+use ffsm_ipopt::refine;
+use std::num::NonZero;
+use std::path::Path;
+
+/// Allocations of all threads before the second iteration of each mesh and before the last.
+fn counts(name: &str, count: usize) -> Vec<[usize; 2]> {
+    let path = format!("{}/config/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let file = ProblemFile::load(Path::new(&path), &Overrides::default()).unwrap();
+    let problem = file.problem;
+    let mut meshes = Vec::with_capacity(problem.mesh.max_iterations);
+    let mut monitor = |event: &Event<'_>| {
+        if let Event::Refinement(refine::Event::Solver(progress)) = event {
+            let now = allocations::of_all_threads();
+            match progress.iteration {
+                // The linear solver analyses the structure in the first one, and helpers start.
+                0 => {}
+                1 => meshes.push([now; 2]),
+                _ => meshes.last_mut().unwrap()[1] = now,
+            }
+        }
+        Control::Continue
+    };
+    let mut planner = Planner::new();
+    let plan = threads::with(NonZero::new(count).unwrap(), || {
+        planner.plan_with(&problem, None, &mut monitor).unwrap()
+    });
+    assert_eq!(plan.status, Status::Solved);
+    assert_eq!(plan.linear_solver, "ours");
+    meshes
+}
+
+#[test]
+fn callbacks_and_linear_solver_on_any_number_of_threads() {
+    // Threads allocate when they start, which may be late on a busy machine.
+    counts("chaser-7dof", 4);
+    for name in ["table1-relaxed", "chaser-7dof", "planar-3link"] {
+        for threads in [1, 2, 4] {
+            for (mesh, [first, last]) in counts(name, threads).into_iter().enumerate() {
+                assert_eq!(
+                    first,
+                    last,
+                    "{name} on {threads} threads, mesh {}",
+                    mesh + 1
+                );
+            }
+        }
+    }
+    assert_eq!(helpers(), 3, "threads that lent a hand");
+}
+
+/// Threads of this process that are helpers.
+fn helpers() -> usize {
+    let tasks = std::fs::read_dir("/proc/self/task").unwrap();
+    let name = |task: std::io::Result<std::fs::DirEntry>| {
+        std::fs::read_to_string(task.unwrap().path().join("comm")).unwrap()
+    };
+    tasks
+        .map(name)
+        .filter(|name| name.starts_with("ffsm-helper"))
+        .count()
+}
