@@ -32,6 +32,12 @@ points = 5
 tolerance = 1e-3
 "#;
 
+/// The text with `old` replaced, which must be there once.
+pub fn edited(text: &str, old: &str, new: &str) -> String {
+    assert_eq!(text.matches(old).count(), 1, "{old:?} in the text");
+    text.replace(old, new)
+}
+
 /// The folder of one test, with `case.toml` and `robot.toml` in it.
 pub struct Folder(TempDir);
 

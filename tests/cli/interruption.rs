@@ -1,0 +1,83 @@
+//! Ctrl-C.
+
+use crate::program::{Folder, PROBLEM};
+use serde_json::Value;
+
+/// Interrupts a command at work on a mesh that takes it long; its folder is returned, which then
+/// holds what was written whole and nothing else.
+#[cfg(unix)]
+fn interrupted(command: &str, extra: &[&str]) -> Folder {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    // A mesh large enough to be at work when the signal comes.
+    let problem = PROBLEM
+        .replace("segments = 4", "segments = 4000")
+        .replace("tolerance = 1e-3", "tolerance = 1e-13");
+    let folder = Folder::new(&problem);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ffsm-ipopt"))
+        .args([command, "case.toml", "--out", "o"])
+        .args(extra)
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // The folder is there once the handler is about to be.
+    while !folder.path().join("o").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    // The shell's own: a bare Debian has no program of that name.
+    let sent = Command::new("sh")
+        .args(["-c", &format!("kill -INT {}", child.id())])
+        .status()
+        .unwrap();
+    assert!(sent.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    for entry in std::fs::read_dir(folder.path().join("o")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert!(!name.starts_with('.'), "left behind: {name}");
+    }
+    folder
+}
+
+/// Ctrl-C leaves the best trajectory, marked.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_plan_is_written_and_marked() {
+    let folder = interrupted("plan", &["--quiet"]);
+    let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
+    assert_eq!(solution["status"], "interrupted");
+}
+
+/// Ctrl-C leaves the plans made until then, the last of them marked.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_comparison_is_written_as_far_as_it_came() {
+    let folder = interrupted("compare", &[]);
+    let found: Value = serde_json::from_str(&folder.read("o/compare.json")).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    assert_eq!(rows.last().unwrap()["status"], "interrupted", "{rows:?}");
+    for row in rows {
+        let path = format!("o/{}/solution.json", row["method"].as_str().unwrap());
+        let solution: Value = serde_json::from_str(&folder.read(&path)).unwrap();
+        assert_eq!(solution["status"], row["status"]);
+    }
+    let table = folder.read("o/compare.md");
+    assert!(table.contains("| interrupted |"), "{table}");
+    assert_eq!(folder.read("o/compare.csv").lines().count(), 1 + rows.len());
+    assert!(folder.path().join("o/compare.png").exists());
+}
+
+/// Ctrl-C leaves the points found until then, the last of them marked.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_trade_off_is_written_as_far_as_it_came() {
+    let folder = interrupted("pareto", &[]);
+    let found: Value = serde_json::from_str(&folder.read("o/pareto.json")).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    assert_eq!(rows.last().unwrap()["status"], "interrupted", "{rows:?}");
+    assert_eq!(folder.read("o/pareto.csv").lines().count(), 1 + rows.len());
+    assert!(folder.path().join("o/pareto.png").exists());
+}

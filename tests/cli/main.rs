@@ -1,0 +1,15 @@
+//! The commands: what they print, where, and how they end.
+
+#[path = "../program/mod.rs"]
+mod program;
+
+mod attitude;
+mod check;
+mod endings;
+mod interruption;
+mod output;
+mod paper;
+mod planners;
+mod saved;
+mod settings;
+mod usage;

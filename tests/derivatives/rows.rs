@@ -1,0 +1,74 @@
+//! Goals, way-points, pairs kept apart, elastic limits.
+
+use crate::checks::*;
+use crate::problem_kinds::*;
+use crate::problems;
+use crate::trees;
+use ffsm_ipopt::collocation::Mesh;
+use ffsm_ipopt::ocp::{Elastic, Interval};
+use ffsm_ipopt::planner::{FreeFloating, GoalFrame, KeepOut, Moment, Obstacle, Sphere, WayPoint};
+
+/// `problem` with a pose for the end effector, fixed in the last body.
+
+#[test]
+fn task_space_goals() {
+    for frame in [GoalFrame::Inertial, GoalFrame::Start, GoalFrame::Base] {
+        check_problem(&with_goal(loaded(problems::two_link()), frame), small());
+        let arm = loaded(trees::chain(3, 4));
+        check_problem(&with_goal(arm, frame), Mesh::uniform(1, 2).unwrap());
+    }
+}
+
+#[test]
+fn way_points_in_joint_and_task_space() {
+    for robot in [problems::two_link(), trees::chain(3, 4)] {
+        let mut problem = with_goal(loaded(robot), GoalFrame::Start);
+        problem.task.initial_momentum.linear[0] = 0.4;
+        let n = problem.robot.joint_count();
+        let goal = problem.task.end_effector.clone().unwrap();
+        let mut stop = WayPoint::joints(Moment::Fraction(0.6), &vec![0.3; n]);
+        stop.joints[0] = None;
+        stop.joint_rates[0] = Some(0.0);
+        let pose = WayPoint::pose(Moment::Fraction(0.3), n, goal);
+        problem.task.way_points = vec![pose, stop];
+        let mesh = Mesh::new(vec![0.0, 0.3, 0.6, 1.0], &[1, 1, 1]).unwrap();
+        check_problem(&problem, mesh.clone());
+        if problem.robot.plane().is_some() {
+            let system = FreeFloating::planar(&problem).unwrap();
+            check(&Elastic::new(&system, system.limit_groups(), 1e-3), mesh);
+        }
+    }
+}
+
+#[test]
+fn pairs_kept_apart() {
+    let sphere = |joint, radius| Sphere {
+        joint,
+        center: [0.3, 0.1, -0.2],
+        radius,
+    };
+    for robot in [problems::two_link(), trees::chain(3, 8)] {
+        let mut problem = loaded(robot);
+        let last = problem.robot.joint_count() - 1;
+        let pair = |from| KeepOut {
+            name: "apart".into(),
+            sphere: sphere(Some(last), 0.1),
+            from,
+        };
+        let (center, half) = ([0.1, -0.2, 0.3], [0.6, 0.5, 0.4]);
+        problem.limits.keep_out = vec![
+            pair(Obstacle::Sphere(sphere(None, 0.5))),
+            pair(Obstacle::Sphere(sphere(Some(0), 0.2))),
+            pair(Obstacle::Box { center, half }),
+        ];
+        problem.limits.torque = vec![Interval::symmetric(3.0); last + 1];
+        check_problem(&problem, Mesh::uniform(1, 2).unwrap());
+    }
+}
+
+#[test]
+fn elastic_limits() {
+    let problem = problems::published();
+    let system = FreeFloating::planar(&problem).unwrap();
+    check(&Elastic::new(&system, system.limit_groups(), 1e-3), small());
+}
