@@ -10,6 +10,7 @@ mod interrupt;
 mod pareto;
 mod plan;
 mod progress;
+mod report;
 mod reproduce;
 mod rows;
 mod show;
@@ -63,6 +64,7 @@ enum Command {
     Figures(figures::Arguments),
     Reproduce(reproduce::Arguments),
     Verify(verify::Arguments),
+    Report(report::Arguments),
     Simulate(simulate::Arguments),
     Doctor(doctor::Arguments),
 }
@@ -91,6 +93,7 @@ pub fn run() -> ExitCode {
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };

@@ -6,7 +6,7 @@ use super::{Outcome, interrupt, terminal};
 use crate::config::{ConfigError, Overrides, ProblemFile};
 use crate::planner::{Method, Plan, Planner, Status};
 use crate::report::{self, OutputFolder, Provenance};
-use crate::verify::{Verification, verify};
+use crate::verify::{self, Verification, verify};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -153,9 +153,14 @@ pub(super) fn write(
     let json = report::to_json(&solution).map_err(|error| failure(error.to_string()))?;
     let csv =
         report::trajectory_csv(&solution.trajectory).map_err(|error| failure(error.to_string()))?;
-    let files = vec![
+    let mut files = vec![
         folder.write("solution.json", &json)?,
         folder.write("trajectory.csv", &csv)?,
     ];
+    // A trajectory with values that are no numbers has nothing to show.
+    if verify::check(&file.problem, &plan.discretization).is_ok() {
+        let page = report::page(&solution, &file.problem, &plan.discretization);
+        files.push(folder.write("report.html", &page)?);
+    }
     Ok((json, files))
 }

@@ -44,6 +44,6 @@ pub use plan::{Diagnosis, LimitFinding, Metrics, Plan, Status, Timing, Trajector
 pub use problem::{Cost, Limits, Problem, ProblemError, Task};
 pub use radau::{PlanError, Planner, plan};
 pub use reached::{Reached, reached};
-pub use straight_line::{StraightLine, straight_line};
+pub use straight_line::{StraightLine, straight_line, straight_motion};
 pub use trajectory::{resampled, turned};
 pub use way_point::{Moment, WayPoint};

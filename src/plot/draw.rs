@@ -169,6 +169,21 @@ impl<'a> Layout<'a> {
         }
     }
 
+    /// Width of the frame, points.
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Height of the frame, points.
+    pub fn height(&self) -> f64 {
+        self.chart.height
+    }
+
+    /// What the x axis reaches from and to.
+    pub fn x_range(&self) -> [f64; 2] {
+        [self.x.low, self.x.high]
+    }
+
     /// Draws the chart, the upper left corner of its frame at (left, top).
     pub fn draw(&self, canvas: &mut Canvas, [left, top]: [f64; 2]) {
         let chart = self.chart;

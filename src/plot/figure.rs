@@ -61,8 +61,35 @@ impl Figure {
 
     /// The figure as an SVG document.
     pub fn svg(&self) -> String {
-        let total = self.width.points();
-        let cell = total / self.columns as f64;
+        let mut canvas = Canvas::default();
+        let height = self.place(|layout, corner| layout.draw(&mut canvas, corner));
+        canvas.finish(&self.description, self.width.points(), height)
+    }
+
+    /// Where the frame of every panel lies, for what is laid over the figure.
+    pub fn frames(&self) -> Vec<Frame> {
+        let width = self.width.points();
+        let mut frames = Vec::with_capacity(self.panels.len());
+        let total = self.place(|layout, [left, top]| {
+            frames.push(Frame {
+                left: left / width,
+                top,
+                width: layout.width() / width,
+                height: layout.height(),
+                x: layout.x_range(),
+            });
+        });
+        for frame in &mut frames {
+            frame.top /= total;
+            frame.height /= total;
+        }
+        frames
+    }
+
+    /// Calls `each` with every panel and the corner of its frame; the height of the figure is
+    /// returned, points.
+    fn place(&self, mut each: impl FnMut(&Layout<'_>, [f64; 2])) -> f64 {
+        let cell = self.width.points() / self.columns as f64;
         // Frames below each other are aligned.
         let left = |column: usize| {
             self.panels
@@ -73,7 +100,6 @@ impl Figure {
                 .fold(0.0, f64::max)
         };
         let lefts: Vec<f64> = (0..self.columns).map(left).collect();
-        let mut canvas = Canvas::default();
         let mut top = 2.0;
         for row in self.panels.chunks(self.columns) {
             let layouts: Vec<Layout<'_>> = row
@@ -84,18 +110,35 @@ impl Figure {
             let margins: Vec<_> = layouts.iter().map(Layout::margins).collect();
             let above = margins.iter().map(|m| m.top).fold(0.0, f64::max);
             for (column, layout) in layouts.iter().enumerate() {
-                let corner = [cell * column as f64 + lefts[column] + 1.0, top + above];
-                layout.draw(&mut canvas, corner);
+                each(
+                    layout,
+                    [cell * column as f64 + lefts[column] + 1.0, top + above],
+                );
             }
-            let below = row
+            let below = layouts
                 .iter()
                 .zip(&margins)
-                .map(|(chart, m)| chart.height + m.bottom)
+                .map(|(layout, m)| layout.height() + m.bottom)
                 .fold(0.0, f64::max);
             top += above + below + BETWEEN;
         }
-        canvas.finish(&self.description, total, top)
+        top
     }
+}
+
+/// The frame of a panel, in parts of the figure's width and height.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Of its left side from that of the figure.
+    pub left: f64,
+    /// Of its upper side from that of the figure.
+    pub top: f64,
+    /// Its width.
+    pub width: f64,
+    /// Its height.
+    pub height: f64,
+    /// What the x axis reaches from and to.
+    pub x: [f64; 2],
 }
 
 #[cfg(test)]
@@ -155,6 +198,37 @@ mod tests {
         let picture = png(&svg).unwrap();
         assert_eq!(picture, png(&svg).unwrap());
         assert_eq!(picture[16..20], 2064_u32.to_be_bytes());
+    }
+
+    #[test]
+    fn frames_are_where_they_are_drawn() {
+        let figure = figure();
+        let svg = figure.svg();
+        let frames = figure.frames();
+        let view = svg.split("viewBox=\"0 0 ").nth(1).unwrap();
+        let mut size = view.split(['"', ' ']).map(|v| v.parse::<f64>().unwrap());
+        let [width, height] = [size.next().unwrap(), size.next().unwrap()];
+        // Nothing is drawn outside of the frame: it is a window.
+        let windows: Vec<[f64; 4]> = svg
+            .split("<svg x=\"")
+            .skip(1)
+            .map(|window| {
+                let mut values = window.split('"').step_by(2);
+                [(); 4].map(|()| values.next().unwrap().parse().unwrap())
+            })
+            .collect();
+        assert_eq!((frames.len(), windows.len()), (3, 3));
+        for (frame, window) in frames.iter().zip(&windows) {
+            let found = [
+                frame.left * width,
+                frame.top * height,
+                frame.width * width,
+                frame.height * height,
+            ];
+            let gap = found.iter().zip(window).map(|(a, b)| (a - b).abs());
+            assert!(gap.fold(0.0, f64::max) < 0.02, "{found:?}, {window:?}");
+        }
+        assert_eq!(frames[0].x, [0.0, 20.0]);
     }
 
     #[test]

@@ -38,7 +38,7 @@ mod shape;
 pub use axis::Axis;
 pub use chart::Chart;
 pub use colour::Colour;
-pub use figure::{Figure, Width};
+pub use figure::{Figure, Frame, Width};
 pub use raster::{PlotError, png};
 pub use series::{Marker, Series, Stroke};
 pub use shape::Shape;

@@ -2,6 +2,10 @@
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::{FontRef, MetadataProvider};
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::sync::{Arc, LazyLock};
 
 /// An SVG that cannot be turned into a PNG.
@@ -61,6 +65,32 @@ pub fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
 
 /// Width of a text at a font size, both in the same unit.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
+    if text.chars().all(|c| NUMERIC.contains(c)) {
+        return advance(text) * size;
+    }
+    WIDTHS.with_borrow_mut(|widths| match widths.get(text) {
+        Some(width) => width * size,
+        None => {
+            let width = laid_out(text);
+            if widths.len() >= MOST_WIDTHS {
+                widths.clear();
+            }
+            widths.insert(text.into(), width);
+            width * size
+        }
+    })
+}
+
+thread_local! {
+    /// Widths of texts in parts of the font size: legends come again, and layout takes its time.
+    static WIDTHS: RefCell<HashMap<String, f64>> = RefCell::default();
+}
+
+/// Texts whose widths are kept.
+const MOST_WIDTHS: usize = 1000;
+
+/// Width of a text in parts of the font size, as usvg lays it out.
+fn laid_out(text: &str) -> f64 {
     let escaped = text.replace('&', "&amp;").replace('<', "&lt;");
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\">\
@@ -68,7 +98,22 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     );
     let width =
         Tree::from_str(&svg, &OPTIONS).map_or(0.0, |tree| tree.root().abs_bounding_box().width());
-    f64::from(width) * size / 100.0
+    f64::from(width) / 100.0
+}
+
+/// Characters of numbers. No two of them are moved together by the font, so that their advances
+/// are all there is to know, a hundred times sooner than by laying them out.
+const NUMERIC: &str = "0123456789.−⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/// Sum of the advances of all characters, in parts of the font size.
+fn advance(text: &str) -> f64 {
+    let Ok(font) = FontRef::new(FONT) else {
+        return 0.0;
+    };
+    let glyphs = font.charmap();
+    let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
+    let width = |c| metrics.advance_width(glyphs.map(c)?);
+    text.chars().filter_map(width).map(f64::from).sum()
 }
 
 #[cfg(test)]
@@ -84,6 +129,25 @@ mod tests {
             assert!(width > blank, "{c}");
         }
         assert!(text_width("wide text", 10.0) > 2.0 * text_width("text", 10.0));
+    }
+
+    #[test]
+    fn numbers_are_as_wide_as_when_laid_out() {
+        let bars = text_width("||", 100.0);
+        for text in [
+            "",
+            "0.123456789",
+            "−30",
+            "10⁻⁵",
+            "10²³⁴",
+            "⁰¹⁶⁷⁸⁹",
+            "777.11",
+        ] {
+            // Bars make it a text that is laid out.
+            let laid_out = text_width(&format!("|{text}|"), 100.0) - bars;
+            let gap = text_width(text, 100.0) - laid_out;
+            assert!(gap.abs() < 1e-2, "{text:?}: {gap}");
+        }
     }
 
     #[test]

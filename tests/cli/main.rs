@@ -10,6 +10,7 @@ mod interruption;
 mod output;
 mod paper;
 mod planners;
+mod report;
 mod saved;
 mod settings;
 mod usage;

@@ -86,7 +86,7 @@ fn only_whole_files_are_left_in_the_default_folder() {
             .map(|entry| entry.unwrap().file_name().into_string().unwrap())
             .collect();
         names.sort();
-        assert_eq!(names, ["solution.json", "trajectory.csv"]);
+        assert_eq!(names, ["report.html", "solution.json", "trajectory.csv"]);
     }
 }
 

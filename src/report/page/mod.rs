@@ -1,0 +1,215 @@
+//! `report.html`: one page that needs nothing else, with the motion played back beside that along
+//! the straight joint path, every quantity with its bounds, and why the numbers can be trusted.
+
+mod charts;
+mod scene;
+mod texts;
+
+use super::{Build, Solution, seconds};
+use crate::collocation::Mesh;
+use crate::planner::{Method, Problem, Trajectory, resampled, straight_motion};
+use crate::transcription::Discretization;
+use charts::Panel;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use scene::Scene;
+use std::time::Duration;
+use texts::Fact;
+
+const STYLE: &str = include_str!("page.css");
+const PLAYBACK: &str = include_str!("playback.js");
+
+/// Times of the playback, less one.
+const FRAMES: usize = 120;
+
+/// The page of `solution`, which is `plan` for `problem`.
+pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> String {
+    let status = texts::status(solution);
+    let straight = straight(problem, plan);
+    let in_joints = solution.method == Method::StraightLine.name();
+    let straight = straight.as_ref().filter(|_| !in_joints);
+    // One point a segment: the nodes are the breakpoints.
+    let even = Mesh::uniform(FRAMES, 1).map(|mesh| resampled(problem, plan, mesh));
+    let title = match status {
+        "solved" => format!("planned, {}", solution.method),
+        other => format!("{}, {other}", solution.method),
+    };
+    let planned = even.iter().map(|motion| (title.as_str(), motion));
+    let compared = straight.map(|motion| ("straight joint path", motion));
+    let scene = Scene::new(problem, &planned.chain(compared).collect::<Vec<_>>());
+    let panels = charts::panels(solution, problem, plan, straight);
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="generator" content={ "ffsm-ipopt " (Build::VERSION) };
+                title { (solution.name) " · " (status) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { (solution.name) " " span class={ "status " (solution.status) } { (status) } }
+                    p { (texts::lead(solution, &scene)) }
+                }
+                @if let Some(diagnosis) = &solution.diagnosis {
+                    section.notice { h2 { "Why there is no solution" } p { (diagnosis.summary) } }
+                }
+                @if !solution.warnings.is_empty() {
+                    section.notice {
+                        h2 { "Before it is used" }
+                        ul { @for warning in &solution.warnings { li { (warning) } } }
+                    }
+                }
+                (playback(&scene))
+                section { h2 { "In figures" } (facts(&texts::figures(solution, problem))) }
+                section {
+                    h2 {
+                        @if status == "solved" { "Why the numbers can be trusted" }
+                        @else { "What was checked" }
+                    }
+                    (facts(&texts::evidence(solution, problem)))
+                }
+                section { h2 { "Over time" } div.charts { @for panel in &panels { (chart(panel)) } } }
+                @if !solution.iterations.is_empty() {
+                    section { h2 { "Mesh by mesh" } (history(solution)) }
+                }
+                section { h2 { "Where it comes from" } (provenance(solution)) }
+                script { (PreEscaped(PLAYBACK)) }
+            }
+        }
+    }
+    .into_string()
+}
+
+/// The motion along the straight joint path to where `plan` ends, in its time; `None` where the
+/// task is not from rest to rest.
+fn straight(problem: &Problem, plan: &Discretization) -> Option<Trajectory> {
+    let task = &problem.task;
+    if !task.initial_momentum.is_zero() || task.initial_rates.iter().any(|rate| *rate != 0.0) {
+        return None;
+    }
+    let n = problem.robot.joint_count();
+    let last = plan.state(plan.mesh.points());
+    let mut problem = problem.clone();
+    problem.task.final_joints = last[last.len() - 2 * n..last.len() - n].to_vec();
+    Some(straight_motion(&problem, plan.duration, FRAMES))
+}
+
+/// The robot in motion; drawn by the script from the scene.
+fn playback(scene: &Scene) -> Markup {
+    let Ok(json) = scene.json() else {
+        return html! {};
+    };
+    html! {
+        section #playback hidden {
+            h2 { "Motion" }
+            div.stages {}
+            div.controls {
+                button type="button" aria-label="Play or pause" { "▶" }
+                input type="range" min="0" max="1" step="any" value="0" aria-label="Time";
+                output {}
+                select aria-label="Speed" {}
+            }
+            p.hint {
+                "To scale. Dashed: the base at the start. The base is drawn as the block of even "
+                "density with its mass and inertia. Drag to turn the view, the space bar plays."
+            }
+            script #scene type="application/json" { (PreEscaped(json)) }
+        }
+        noscript { p.hint { "The motion is played where scripts are allowed." } }
+    }
+}
+
+fn facts(facts: &[Fact]) -> Markup {
+    html! {
+        table.facts {
+            @for fact in facts {
+                tr {
+                    th scope="row" { (fact.what) }
+                    td {
+                        (fact.value)
+                        @if !fact.meaning.is_empty() { div.meaning { (fact.meaning) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn chart(panel: &Panel) -> Markup {
+    let frame = panel
+        .figure
+        .frames()
+        .first()
+        .filter(|_| panel.over_time)
+        .map(|frame| {
+            let [low, high] = frame.x;
+            let of = [frame.left, frame.top, frame.width, frame.height, low, high];
+            of.map(|value| format!("{value:.5}")).join(" ")
+        });
+    html! {
+        figure {
+            figcaption { (panel.heading) }
+            div.chart data-frame=[frame] { (PreEscaped(panel.figure.svg())) }
+        }
+    }
+}
+
+/// One row a mesh iteration.
+fn history(solution: &Solution) -> Markup {
+    html! {
+        table.history {
+            thead {
+                tr {
+                    @for head in [
+                        "mesh", "segments", "points", "largest error", "cost J", "iterations",
+                        "Ipopt", "time",
+                    ] {
+                        th scope="col" { (head) }
+                    }
+                }
+            }
+            @for (k, record) in solution.iterations.iter().enumerate() {
+                tr {
+                    td { (k + 1) }
+                    td { (record.segments) }
+                    td { (record.points) }
+                    td { (format!("{:.3e}", record.max_error)) }
+                    td { (format!("{:.9}", record.objective)) }
+                    td { (record.nlp_iterations) }
+                    td { (record.nlp_status) }
+                    td { (seconds(Duration::from_secs_f64(record.seconds.max(0.0)))) }
+                }
+            }
+        }
+    }
+}
+
+/// What was solved by what, and the files word by word.
+fn provenance(solution: &Solution) -> Markup {
+    let kept = &solution.provenance;
+    let fact = |what: &str, value: &str| Fact {
+        what: what.into(),
+        value: value.into(),
+        meaning: String::new(),
+    };
+    let mut lines = vec![
+        fact("ffsm-ipopt", &kept.version),
+        fact("Ipopt", &kept.ipopt),
+        fact("linear solver", &kept.linear_solver),
+        fact("method", &solution.method),
+        fact("problem", &kept.problem.path),
+    ];
+    if !kept.problem.overrides.is_empty() {
+        lines.push(fact("changed by", &kept.problem.overrides.join(", ")));
+    }
+    lines.push(fact("robot", &kept.robot.path));
+    lines.push(fact("SHA-256 of the robot", &kept.robot_sha256));
+    html! {
+        (facts(&lines))
+        @for (what, text) in [("problem", &kept.problem.text), ("robot", &kept.robot.text)] {
+            details { summary { "The " (what) " file" } pre { (text) } }
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! What the playback shows: points and lines of the robot at even times.
+
+use crate::dynamics::attitude::SpatialAttitude;
+use crate::dynamics::{Body, Model};
+use crate::planner::{Problem, Trajectory};
+use crate::verify::bodies::{BaseMotion, Bodies, orientation};
+use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
+use serde::Serialize;
+
+/// Part of the picture's size to which points are rounded.
+const ROUNDING: f64 = 1e-4;
+
+/// Motions that are played beside each other.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Scene {
+    /// s
+    duration: f64,
+    /// Whether the motion stays in the plane of the first two axes.
+    planar: bool,
+    /// Edges of the base between the first points of a frame.
+    box_edges: Vec<[usize; 2]>,
+    /// Links between points of a frame.
+    links: Vec<[usize; 2]>,
+    /// Points of a frame that are joints.
+    joints: Vec<usize>,
+    /// Points of a frame at the ends of arms.
+    tips: Vec<usize>,
+    motions: Vec<Motion>,
+}
+
+/// One motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Motion {
+    title: String,
+    /// Points of every frame, three coordinates each, m.
+    frames: Vec<Vec<f64>>,
+    /// Rotation of the base from its start, deg; signed in the plane.
+    turned: Vec<f64>,
+    /// Distance of the base from its start, cm.
+    shifted: Vec<f64>,
+}
+
+impl Scene {
+    /// A scene with these motions of `problem`'s robot, at even times, under their titles.
+    pub fn new(problem: &Problem, motions: &[(&str, &Trajectory)]) -> Self {
+        let robot = &problem.robot;
+        let skeleton = Skeleton::new(robot);
+        let duration = motions.iter().filter_map(|(_, rows)| rows.t.last()).next();
+        let duration = duration.copied().unwrap_or(0.0);
+        let mut motions: Vec<Motion> = motions
+            .iter()
+            .map(|(title, rows)| skeleton.motion(title, rows))
+            .collect();
+        let all = || motions.iter().flat_map(|motion| &motion.frames).flatten();
+        let step = ROUNDING * all().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let decimals = (-step.log10()).ceil().clamp(0.0, 12.0) as i32;
+        let scale = 10f64.powi(decimals);
+        for motion in &mut motions {
+            for value in motion.frames.iter_mut().flatten() {
+                // Adding zero takes the sign off a zero.
+                *value = (*value * scale).round() / scale + 0.0;
+            }
+        }
+        Self {
+            duration,
+            planar: robot.plane().is_some(),
+            box_edges: skeleton.box_edges(),
+            links: skeleton.links.clone(),
+            joints: (0..robot.joint_count())
+                .map(|j| skeleton.joint(j))
+                .collect(),
+            tips: skeleton.tips.clone(),
+            motions,
+        }
+    }
+
+    /// The largest turn of the base in the first motion and its turn at the end, and the same of its
+    /// shift; deg and cm.
+    pub fn extremes(&self, motion: usize) -> Option<[[f64; 2]; 2]> {
+        let motion = self.motions.get(motion)?;
+        let of = |values: &[f64]| {
+            let most = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+            Some([most, values.last()?.abs()])
+        };
+        Some([of(&motion.turned)?, of(&motion.shifted)?])
+    }
+
+    /// As JSON that may stand in a script element.
+    ///
+    /// # Errors
+    /// None that is expected: all numbers are finite.
+    pub fn json(&self) -> serde_json::Result<String> {
+        Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))
+    }
+}
+
+/// Corners of the base, the base's origin, every joint, then the ends of arms.
+struct Skeleton<'a> {
+    robot: &'a Model,
+    /// From inertial axes to those of the picture.
+    to_picture: Matrix3<f64>,
+    /// In base axes, m.
+    corners: Vec<Vector3<f64>>,
+    links: Vec<[usize; 2]>,
+    tips: Vec<usize>,
+    /// The joint that carries each end, and the end in the axes of its body, m.
+    ends: Vec<(usize, Vector3<f64>)>,
+}
+
+impl<'a> Skeleton<'a> {
+    fn new(robot: &'a Model) -> Self {
+        let basis = robot.plane().map(|plane| plane.basis);
+        let to_picture = basis.map_or_else(Matrix3::identity, |basis| basis.transpose());
+        let mut corners = block(robot.base());
+        if basis.is_some() {
+            corners = outline(&corners, &to_picture);
+        }
+        let mut found = Self {
+            robot,
+            to_picture,
+            corners,
+            links: Vec::new(),
+            tips: Vec::new(),
+            ends: ends(robot),
+        };
+        let origin = found.corners.len();
+        for (j, joint) in robot.joints().iter().enumerate() {
+            let from = joint.parent.map_or(origin, |parent| found.joint(parent));
+            found.links.push([from, found.joint(j)]);
+        }
+        for (k, (joint, _)) in found.ends.iter().enumerate() {
+            let tip = origin + 1 + robot.joint_count() + k;
+            found.links.push([found.joint(*joint), tip]);
+            found.tips.push(tip);
+        }
+        found
+    }
+
+    /// Number of the point at joint `j`.
+    fn joint(&self, j: usize) -> usize {
+        self.corners.len() + 1 + j
+    }
+
+    fn box_edges(&self) -> Vec<[usize; 2]> {
+        let corners = self.corners.len();
+        if corners == 8 {
+            // Corners whose numbers differ in one bit.
+            let pairs = (0..8).flat_map(|a| [1, 2, 4].map(|bit| [a, a ^ bit]));
+            pairs.filter(|[a, b]| a < b).collect()
+        } else {
+            (0..corners).map(|k| [k, (k + 1) % corners]).collect()
+        }
+    }
+
+    fn motion(&self, title: &str, rows: &Trajectory) -> Motion {
+        let start = Pose::of(self, rows, 0);
+        let mut bodies = Bodies::new(self.robot);
+        let mut motion = Motion {
+            title: title.into(),
+            frames: Vec::with_capacity(rows.t.len()),
+            turned: Vec::with_capacity(rows.t.len()),
+            shifted: Vec::with_capacity(rows.t.len()),
+        };
+        for k in 0..rows.t.len() {
+            let pose = Pose::of(self, rows, k);
+            let q = &rows.joint_position[k];
+            let base = BaseMotion::placed(pose.position, pose.orientation);
+            bodies.update(self.robot, &base, q, &vec![0.0; q.len()]);
+            motion.frames.push(self.points(&base, &bodies));
+            let turn = match self.robot.plane() {
+                Some(_) => rows.base_attitude[k][0] - rows.base_attitude[0][0],
+                None => start.orientation.angle_to(&pose.orientation),
+            };
+            let shift = (pose.position - start.position).norm();
+            motion.turned.push(rounded(turn.to_degrees()));
+            motion.shifted.push(rounded(100.0 * shift));
+        }
+        motion
+    }
+
+    fn points(&self, base: &BaseMotion, bodies: &Bodies) -> Vec<f64> {
+        let corners = self.corners.iter();
+        let corners = corners.map(|corner| base.position + base.rotation * corner);
+        let origins = bodies.motions().iter().map(|body| body.origin);
+        let ends = self.ends.iter().map(|(joint, end)| {
+            let body = &bodies.motions()[joint + 1];
+            body.origin + body.rotation * end
+        });
+        let points = corners.chain(origins).chain(ends);
+        points
+            .flat_map(|point| <[f64; 3]>::from(self.to_picture * point))
+            .collect()
+    }
+}
+
+/// Three decimals, which is what is shown.
+fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}
+
+/// Where the base is, in inertial axes.
+struct Pose {
+    position: Vector3<f64>,
+    orientation: UnitQuaternion<f64>,
+}
+
+impl Pose {
+    fn of(skeleton: &Skeleton<'_>, rows: &Trajectory, k: usize) -> Self {
+        let attitude = rows.attitude.unwrap_or(SpatialAttitude::RollPitchYaw);
+        let position = match rows.base_position[k][..] {
+            [x, y] => skeleton.to_picture.transpose() * Vector3::new(x, y, 0.0),
+            ref position => Vector3::from_column_slice(position),
+        };
+        Self {
+            position,
+            orientation: orientation(skeleton.robot, attitude, &rows.base_attitude[k]),
+        }
+    }
+}
+
+/// The eight corners, in base axes, of the block of even density with the base's mass, mass centre
+/// and inertia.
+fn block(base: &Body) -> Vec<Vector3<f64>> {
+    let inertia = &base.inertia;
+    let principal = SymmetricEigen::new(*inertia.rotational());
+    let [a, b, c] = [0, 1, 2].map(|i| principal.eigenvalues[i]);
+    // The moment about an axis is m/12 times the squares of the two other sides.
+    let half = [b + c - a, a + c - b, a + b - c]
+        .map(|sum| (1.5 * sum.max(0.0) / inertia.mass().max(f64::MIN_POSITIVE)).sqrt());
+    let corner = |bits: usize| {
+        let sign = |bit: usize| if bits & bit == 0 { -1.0 } else { 1.0 };
+        let inside = Vector3::new(sign(1) * half[0], sign(2) * half[1], sign(4) * half[2]);
+        inertia.center() + principal.eigenvectors * inside
+    };
+    (0..8).map(corner).collect()
+}
+
+/// The four of the corners of a block that are its outline in the plane of motion, in order.
+fn outline(corners: &[Vector3<f64>], to_picture: &Matrix3<f64>) -> Vec<Vector3<f64>> {
+    let centre = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
+    let angle = |corner: &Vector3<f64>| {
+        let seen = to_picture * (corner - centre);
+        seen.y.atan2(seen.x)
+    };
+    let height = |corner: &Vector3<f64>| (to_picture * (corner - centre)).z;
+    let mut upper: Vec<_> = corners.to_vec();
+    upper.sort_by(|a, b| height(b).total_cmp(&height(a)));
+    upper.truncate(4);
+    upper.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    upper
+}
+
+/// The end effector, and the ends of arms without one: as far beyond the mass centre of the last
+/// body as its joint is before it.
+fn ends(robot: &Model) -> Vec<(usize, Vector3<f64>)> {
+    let effector = robot.end_effector();
+    let effector = effector.and_then(|(joint, at)| Some(((*joint)?, at.translation)));
+    let carries = |j: usize| robot.joints().iter().any(|joint| joint.parent == Some(j));
+    let last = (0..robot.joint_count())
+        .filter(|&j| !carries(j) && effector.is_none_or(|(joint, _)| joint != j));
+    let beyond = |j: usize| (j, 2.0 * robot.joints()[j].body.inertia.center());
+    effector.into_iter().chain(last.map(beyond)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::Inertia;
+    use nalgebra::Rotation3;
+
+    #[test]
+    fn the_block_has_the_inertia_of_the_base() {
+        let turned = Rotation3::from_euler_angles(0.3, -0.5, 1.1).into_inner();
+        let sides = Vector3::new(0.8, 1.2, 2.0);
+        let mass = 60.0;
+        let squares = sides.component_mul(&sides);
+        let moments = Vector3::repeat(squares.sum()) - squares;
+        let inertia =
+            turned * Matrix3::from_diagonal(&(moments * mass / 12.0)) * turned.transpose();
+        let center = Vector3::new(0.1, -0.2, 0.3);
+        let base = Body {
+            name: "base".into(),
+            inertia: Inertia::new(mass, center, inertia).unwrap(),
+        };
+        let corners = block(&base);
+        assert_eq!(corners.len(), 8);
+        for corner in corners {
+            let inside = turned.transpose() * (corner - center);
+            let gap = (inside.abs() - sides / 2.0).amax();
+            assert!(gap < 1e-12, "{inside}");
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! What the page says in words and numbers.
+
+use super::scene::Scene;
+use crate::dynamics::JointKind;
+use crate::planner::Problem;
+use crate::report::{Solution, Verification, centimetres, degrees};
+use std::time::Duration;
+
+/// A fact: what, how much, and where it needs one, what that means.
+pub(super) struct Fact {
+    pub what: String,
+    pub value: String,
+    pub meaning: String,
+}
+
+impl Fact {
+    fn new(what: &str, value: String, meaning: &str) -> Self {
+        Self {
+            what: what.into(),
+            value,
+            meaning: meaning.into(),
+        }
+    }
+}
+
+/// The status for a person.
+pub(super) fn status(solution: &Solution) -> &'static str {
+    match solution.status.as_str() {
+        "solved" => "solved",
+        "infeasible" => "infeasible",
+        "interrupted" => "interrupted",
+        _ => "not converged",
+    }
+}
+
+/// What came of it, in a few sentences.
+pub(super) fn lead(solution: &Solution, scene: &Scene) -> String {
+    let caution = match solution.status.as_str() {
+        "infeasible" => "This problem has no solution; the motion below does not keep its limits. ",
+        "not_converged" => "This is the best trajectory found, not a converged one. ",
+        "interrupted" => "This is the best trajectory until it was interrupted. ",
+        _ => "",
+    };
+    let planned = scene.extremes(0).map(|[[most, turned], [_, shifted]]| {
+        format!(
+            "The base turns by at most {most:.1}° on its way and ends {turned:.1}° and \
+             {shifted:.1} cm from where it started."
+        )
+    });
+    let straight = scene.extremes(1).map(|[[_, turned], [_, shifted]]| {
+        format!(
+            " Along the straight joint path it would end {turned:.1}° and {shifted:.1} cm away."
+        )
+    });
+    [Some(caution.into()), planned, straight]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// The figures a person asks for first.
+pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
+    let fact = |what: &str, value: String| Fact::new(what, value, "");
+    let found = &solution.metrics;
+    let last = solution.trajectory.t.last().copied().unwrap_or(0.0);
+    let mut facts = vec![
+        fact("duration", format!("{last:.6} s").replace(".000000", "")),
+        fact("cost J", format!("{:.9}", solution.objective)),
+        fact(
+            "mesh",
+            format!("{} segments, {} points", solution.segments, solution.points),
+        ),
+        fact(
+            "base attitude",
+            format!(
+                "at the nodes {} at most, {} at the end",
+                degrees(found.max_base_attitude),
+                degrees(found.final_base_attitude)
+            ),
+        ),
+        fact(
+            "base displacement",
+            format!(
+                "at the nodes {} at most, {} at the end",
+                centimetres(found.max_base_displacement),
+                centimetres(found.final_base_displacement)
+            ),
+        ),
+    ];
+    facts.extend(peaks(solution, problem));
+    let time = &solution.timing;
+    let seconds = |s: f64| crate::report::seconds(Duration::from_secs_f64(s.max(0.0)));
+    facts.push(fact(
+        "planned in",
+        format!(
+            "{}: derivatives {}, linear solver {}, rest of Ipopt {}, set-up {}",
+            seconds(time.total),
+            seconds(time.derivatives),
+            seconds(time.linear_solver),
+            seconds(time.ipopt_other),
+            seconds(time.setup)
+        ),
+    ));
+    facts
+}
+
+/// Largest rates and efforts, turning and sliding joints apart.
+fn peaks(solution: &Solution, problem: &Problem) -> Vec<Fact> {
+    let joints = problem.robot.joints();
+    let peak = |rows: &[Vec<f64>], kind: JointKind| {
+        let of = |row: &Vec<f64>| {
+            let values = row.iter().zip(joints);
+            values
+                .filter(|(_, joint)| joint.kind == kind)
+                .fold(0.0, |most: f64, (value, _)| most.max(value.abs()))
+        };
+        rows.iter().map(of).fold(0.0, f64::max)
+    };
+    let rows = &solution.trajectory;
+    let mut facts = Vec::new();
+    for (kind, what) in [
+        (JointKind::Revolute, "joints"),
+        (JointKind::Prismatic, "sliding joints"),
+    ] {
+        if joints.iter().all(|joint| joint.kind != kind) {
+            continue;
+        }
+        let rate = peak(&rows.joint_velocity, kind);
+        let effort = peak(&rows.joint_torque, kind);
+        let value = match kind {
+            JointKind::Revolute => format!("at most {}/s and {effort:.4} N·m", degrees(rate)),
+            JointKind::Prismatic => format!("at most {}/s and {effort:.4} N", centimetres(rate)),
+        };
+        facts.push(Fact::new(what, value, ""));
+    }
+    facts
+}
+
+/// Why the numbers can be trusted, or what has not been checked.
+pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    if !solution.iterations.is_empty() {
+        let within = if solution.max_error <= solution.tolerance {
+            "within"
+        } else {
+            "above"
+        };
+        facts.push(Fact::new(
+            "collocation error",
+            format!(
+                "{:.2e}, {within} the tolerance {:e}",
+                solution.max_error, solution.tolerance
+            ),
+            "largest defect of the equations of motion midway between nodes, eq. (28) of the paper",
+        ));
+    }
+    if let Some(last) = solution.iterations.last() {
+        facts.push(Fact::new(
+            "between the nodes",
+            if last.max_violation > 0.0 {
+                format!(
+                    "limits exceeded by {:.1e} of their size",
+                    last.max_violation
+                )
+            } else {
+                "no limit is exceeded".into()
+            },
+            "limits hold at the nodes; here they were looked at on a finer grid",
+        ));
+    }
+    match &solution.verification {
+        Some(found) => facts.extend(verification(found, problem)),
+        None => facts.push(Fact::new(
+            "re-integration",
+            "none".into(),
+            "only plans that hold their equations are integrated again",
+        )),
+    }
+    for goal in &solution.goals {
+        let gaps = [
+            goal.distance.map(|gap| format!("{:.1e} cm", 100.0 * gap)),
+            goal.angle.map(|gap| format!("{:.1e}°", gap.to_degrees())),
+        ];
+        let gaps: Vec<String> = gaps.into_iter().flatten().collect();
+        facts.push(Fact::new(
+            &goal.key,
+            format!("{} off at {:.3} s", gaps.join(" and "), goal.t),
+            "distance and angle between the end effector and its goal",
+        ));
+    }
+    facts
+}
+
+fn verification(found: &Verification, problem: &Problem) -> Vec<Fact> {
+    let turns = |joint: &crate::dynamics::Joint| joint.kind == JointKind::Revolute;
+    let joints = if problem.robot.joints().iter().all(turns) {
+        format!("{:.1e}°", found.max_joint_drift.to_degrees())
+    } else {
+        format!("{:.1e} rad or m", found.max_joint_drift)
+    };
+    vec![
+        Fact::new(
+            "under its control",
+            format!(
+                "base within {:.1e}° and {:.1e} cm, joints within {joints}",
+                found.max_base_attitude_drift.to_degrees(),
+                100.0 * found.max_base_position_drift
+            ),
+            "the full, unreduced equations of motion of base and arm, integrated by an adaptive \
+             method that shares no code with the planner, under the planned control",
+        ),
+        Fact::new(
+            "along the planned joint path",
+            format!(
+                "base within {:.1e}° and {:.1e} cm",
+                found.replay_base_attitude_drift.to_degrees(),
+                100.0 * found.replay_base_position_drift
+            ),
+            "the same with the joints led along the plan, as a controller would",
+        ),
+        Fact::new(
+            "momentum",
+            format!(
+                "off by at most {:.1e} kg m/s and {:.1e} kg m²/s",
+                found.max_linear_momentum, found.max_angular_momentum
+            ),
+            "nothing pushes the system: its momentum stays what it was at the start",
+        ),
+        Fact::new(
+            "energy",
+            format!("off by at most {:.1e} J", found.max_energy_gap),
+            "kinetic energy against the work of the joints",
+        ),
+    ]
+}
