@@ -2,10 +2,12 @@
 
 mod check;
 mod compare;
+mod completions;
 mod doctor;
 mod failure;
 mod figures;
 mod fit;
+mod init;
 mod interrupt;
 mod pareto;
 mod plan;
@@ -66,6 +68,8 @@ enum Command {
     Verify(verify::Arguments),
     Report(report::Arguments),
     Simulate(simulate::Arguments),
+    Init(init::Arguments),
+    Completions(completions::Arguments),
     Doctor(doctor::Arguments),
 }
 
@@ -95,6 +99,8 @@ pub fn run() -> ExitCode {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Init(arguments) => init::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match result {

@@ -6,6 +6,7 @@ mod program;
 mod attitude;
 mod check;
 mod endings;
+mod first_steps;
 mod interruption;
 mod output;
 mod paper;

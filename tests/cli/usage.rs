@@ -18,6 +18,8 @@ fn help_names_every_command() {
         "report",
         "simulate",
         "doctor",
+        "init",
+        "completions",
     ] {
         assert!(
             run.stdout
