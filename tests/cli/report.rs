@@ -96,6 +96,32 @@ fn what_is_played_is_the_plan_and_the_straight_joint_path() {
 }
 
 #[test]
+fn what_is_kept_apart_is_drawn_where_it_is() {
+    let apart = r#"
+[[limits.keep_out]]
+name = "forearm off the base"
+sphere = { body = "forearm", center = [0.3, 0.0, 0.0], radius = 0.05 }
+from = { center = [0.0, 0.0, 0.0], half = [0.2, 0.1, 0.1] }
+"#;
+    let folder = Folder::new(&format!("{PROBLEM}{apart}"));
+    let run = folder.run(&["plan", "case.toml", "--out", "o"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    let scene = scene(&folder.read("o/report.html"));
+    assert_eq!(scene["balls"][0][1], 0.05);
+    assert_eq!(scene["boxes"].as_array().unwrap().len(), 4);
+    let ball = scene["balls"][0][0].as_u64().unwrap() as usize;
+    let elbow = scene["joints"][1].as_u64().unwrap() as usize;
+    let corner = scene["boxes"][0][0].as_u64().unwrap() as usize;
+    let base = scene["links"][0][0].as_u64().unwrap() as usize;
+    for frame in scene["motions"][0]["frames"].as_array().unwrap() {
+        let at = |point: usize| [0, 1].map(|i| frame[3 * point + i].as_f64().unwrap());
+        let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        assert!((apart(at(ball), at(elbow)) - 0.3).abs() < 1e-3);
+        assert!((apart(at(corner), at(base)) - 0.2_f64.hypot(0.1)).abs() < 1e-3);
+    }
+}
+
+#[test]
 fn names_cannot_break_the_page() {
     let folder = Folder::new(PROBLEM);
     let name = "</script><i>&";

@@ -113,7 +113,9 @@ fn playback(scene: &Scene) -> Markup {
             }
             p.hint {
                 "To scale. Dashed: the base at the start. The base is drawn as the block of even "
-                "density with its mass and inertia. Drag to turn the view, the space bar plays."
+                "density with its mass and inertia. "
+                @if scene.keeps_apart() { "Dotted: what is kept apart. " }
+                "Drag to turn the view, the space bar plays."
             }
             script #scene type="application/json" { (PreEscaped(json)) }
         }

@@ -6,7 +6,7 @@
   section.hidden = false;
   const [button, slider, clock, speeds] = [".controls button", ".controls input", ".controls output", ".controls select"]
     .map((name) => section.querySelector(name));
-  const colours = { base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", joint: "#e69f00", path: "#d55e00", start: "#8a949e" };
+  const colours = { base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", joint: "#e69f00", path: "#d55e00", start: "#8a949e", apart: "#cc79a7" };
 
   // A camera for all stages: the plane face on, or from a corner above.
   const camera = scene.planar ? { turn: -Math.PI / 2, lift: Math.PI / 2 } : { turn: -1.0, lift: 0.45 };
@@ -96,6 +96,17 @@
       stroke([...path, frame[tip]], colours.path, 1);
     }
     for (const [a, b] of edges) stroke([start[a], start[b]], colours.start, 1, [4, 4]);
+
+    for (const [a, b] of scene.boxes) stroke([frame[a], frame[b]], colours.apart, 1, [2, 3]);
+    for (const [k, radius] of scene.balls) {
+      pen.setLineDash([2, 3]);
+      pen.strokeStyle = colours.apart;
+      pen.lineWidth = 1;
+      pen.beginPath();
+      pen.arc(frame[k][0], frame[k][1], scale * radius, 0, 2 * Math.PI);
+      pen.stroke();
+      pen.setLineDash([]);
+    }
 
     // The far before the near.
     const corners = scene.planar ? 4 : 8;

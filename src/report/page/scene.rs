@@ -2,7 +2,7 @@
 
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::dynamics::{Body, Model};
-use crate::planner::{Problem, Trajectory};
+use crate::planner::{KeepOut, Obstacle, Problem, Sphere, Trajectory};
 use crate::verify::bodies::{BaseMotion, Bodies, orientation};
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
 use serde::Serialize;
@@ -25,6 +25,10 @@ pub(super) struct Scene {
     joints: Vec<usize>,
     /// Points of a frame at the ends of arms.
     tips: Vec<usize>,
+    /// Points of a frame at the centres of spheres that are kept apart, with their radii, m.
+    balls: Vec<(usize, f64)>,
+    /// Edges of boxes that are kept clear.
+    boxes: Vec<[usize; 2]>,
     motions: Vec<Motion>,
 }
 
@@ -44,7 +48,7 @@ impl Scene {
     /// A scene with these motions of `problem`'s robot, at even times, under their titles.
     pub fn new(problem: &Problem, motions: &[(&str, &Trajectory)]) -> Self {
         let robot = &problem.robot;
-        let skeleton = Skeleton::new(robot);
+        let skeleton = Skeleton::new(robot, &problem.limits.keep_out);
         let duration = motions.iter().filter_map(|(_, rows)| rows.t.last()).next();
         let duration = duration.copied().unwrap_or(0.0);
         let mut motions: Vec<Motion> = motions
@@ -64,12 +68,14 @@ impl Scene {
         Self {
             duration,
             planar: robot.plane().is_some(),
-            box_edges: skeleton.box_edges(),
+            box_edges: edges(skeleton.corners.len()),
             links: skeleton.links.clone(),
             joints: (0..robot.joint_count())
                 .map(|j| skeleton.joint(j))
                 .collect(),
             tips: skeleton.tips.clone(),
+            balls: skeleton.balls.clone(),
+            boxes: skeleton.boxes.clone(),
             motions,
         }
     }
@@ -85,6 +91,11 @@ impl Scene {
         Some([of(&motion.turned)?, of(&motion.shifted)?])
     }
 
+    /// Whether anything is kept apart.
+    pub fn keeps_apart(&self) -> bool {
+        !self.balls.is_empty()
+    }
+
     /// As JSON that may stand in a script element.
     ///
     /// # Errors
@@ -94,7 +105,8 @@ impl Scene {
     }
 }
 
-/// Corners of the base, the base's origin, every joint, then the ends of arms.
+/// Corners of the base, the base's origin, every joint, then what is attached to bodies: the ends of
+/// arms, spheres and boxes.
 struct Skeleton<'a> {
     robot: &'a Model,
     /// From inertial axes to those of the picture.
@@ -103,12 +115,16 @@ struct Skeleton<'a> {
     corners: Vec<Vector3<f64>>,
     links: Vec<[usize; 2]>,
     tips: Vec<usize>,
-    /// The joint that carries each end, and the end in the axes of its body, m.
-    ends: Vec<(usize, Vector3<f64>)>,
+    balls: Vec<(usize, f64)>,
+    boxes: Vec<[usize; 2]>,
+    attached: Vec<Attached>,
 }
 
+/// The joint whose body carries a point, `None` for the base, and the point in that body's axes, m.
+type Attached = (Option<usize>, Vector3<f64>);
+
 impl<'a> Skeleton<'a> {
-    fn new(robot: &'a Model) -> Self {
+    fn new(robot: &'a Model, apart: &[KeepOut]) -> Self {
         let basis = robot.plane().map(|plane| plane.basis);
         let to_picture = basis.map_or_else(Matrix3::identity, |basis| basis.transpose());
         let mut corners = block(robot.base());
@@ -121,35 +137,60 @@ impl<'a> Skeleton<'a> {
             corners,
             links: Vec::new(),
             tips: Vec::new(),
-            ends: ends(robot),
+            balls: Vec::new(),
+            boxes: Vec::new(),
+            attached: Vec::new(),
         };
         let origin = found.corners.len();
         for (j, joint) in robot.joints().iter().enumerate() {
             let from = joint.parent.map_or(origin, |parent| found.joint(parent));
             found.links.push([from, found.joint(j)]);
         }
-        for (k, (joint, _)) in found.ends.iter().enumerate() {
-            let tip = origin + 1 + robot.joint_count() + k;
-            found.links.push([found.joint(*joint), tip]);
+        for (joint, end) in ends(robot) {
+            let tip = found.attach((Some(joint), end));
+            found.links.push([found.joint(joint), tip]);
             found.tips.push(tip);
         }
+        for pair in apart {
+            found.ball(&pair.sphere);
+            match &pair.from {
+                Obstacle::Sphere(sphere) => found.ball(sphere),
+                Obstacle::Box { center, half } => found.clear(*center, *half),
+            }
+        }
         found
+    }
+
+    /// Adds a point; its number in a frame is returned.
+    fn attach(&mut self, point: Attached) -> usize {
+        self.attached.push(point);
+        self.corners.len() + self.robot.joint_count() + self.attached.len()
+    }
+
+    fn ball(&mut self, sphere: &Sphere) {
+        let centre = self.attach((sphere.joint, Vector3::from(sphere.center)));
+        self.balls.push((centre, sphere.radius));
+    }
+
+    /// A box on the base.
+    fn clear(&mut self, center: [f64; 3], half: [f64; 3]) {
+        let mut corners = cuboid(Vector3::from(center), &Matrix3::identity(), half);
+        if self.robot.plane().is_some() {
+            corners = outline(&corners, &self.to_picture);
+        }
+        let first = corners
+            .iter()
+            .map(|corner| self.attach((None, *corner)))
+            .min();
+        let first = first.unwrap_or(0);
+        let edges = edges(corners.len()).into_iter();
+        self.boxes
+            .extend(edges.map(|[a, b]| [first + a, first + b]));
     }
 
     /// Number of the point at joint `j`.
     fn joint(&self, j: usize) -> usize {
         self.corners.len() + 1 + j
-    }
-
-    fn box_edges(&self) -> Vec<[usize; 2]> {
-        let corners = self.corners.len();
-        if corners == 8 {
-            // Corners whose numbers differ in one bit.
-            let pairs = (0..8).flat_map(|a| [1, 2, 4].map(|bit| [a, a ^ bit]));
-            pairs.filter(|[a, b]| a < b).collect()
-        } else {
-            (0..corners).map(|k| [k, (k + 1) % corners]).collect()
-        }
     }
 
     fn motion(&self, title: &str, rows: &Trajectory) -> Motion {
@@ -182,11 +223,11 @@ impl<'a> Skeleton<'a> {
         let corners = self.corners.iter();
         let corners = corners.map(|corner| base.position + base.rotation * corner);
         let origins = bodies.motions().iter().map(|body| body.origin);
-        let ends = self.ends.iter().map(|(joint, end)| {
-            let body = &bodies.motions()[joint + 1];
-            body.origin + body.rotation * end
+        let attached = self.attached.iter().map(|(joint, point)| {
+            let body = &bodies.motions()[joint.map_or(0, |joint| joint + 1)];
+            body.origin + body.rotation * point
         });
-        let points = corners.chain(origins).chain(ends);
+        let points = corners.chain(origins).chain(attached);
         points
             .flat_map(|point| <[f64; 3]>::from(self.to_picture * point))
             .collect()
@@ -227,12 +268,28 @@ fn block(base: &Body) -> Vec<Vector3<f64>> {
     // The moment about an axis is m/12 times the squares of the two other sides.
     let half = [b + c - a, a + c - b, a + b - c]
         .map(|sum| (1.5 * sum.max(0.0) / inertia.mass().max(f64::MIN_POSITIVE)).sqrt());
+    cuboid(*inertia.center(), &principal.eigenvectors, half)
+}
+
+/// The eight corners of a block with these half edges along these axes.
+fn cuboid(center: Vector3<f64>, axes: &Matrix3<f64>, half: [f64; 3]) -> Vec<Vector3<f64>> {
     let corner = |bits: usize| {
         let sign = |bit: usize| if bits & bit == 0 { -1.0 } else { 1.0 };
         let inside = Vector3::new(sign(1) * half[0], sign(2) * half[1], sign(4) * half[2]);
-        inertia.center() + principal.eigenvectors * inside
+        center + axes * inside
     };
     (0..8).map(corner).collect()
+}
+
+/// Edges between the eight corners of a block, or those of an outline in order.
+fn edges(corners: usize) -> Vec<[usize; 2]> {
+    if corners == 8 {
+        // Corners whose numbers differ in one bit.
+        let pairs = (0..8).flat_map(|a| [1, 2, 4].map(|bit| [a, a ^ bit]));
+        pairs.filter(|[a, b]| a < b).collect()
+    } else {
+        (0..corners).map(|k| [k, (k + 1) % corners]).collect()
+    }
 }
 
 /// The four of the corners of a block that are its outline in the plane of motion, in order.
