@@ -3,18 +3,17 @@
 use super::axis::Scale;
 use super::canvas::{Anchor, Canvas};
 use super::legend::Legend;
+use super::marks::{BAND, mark};
 use super::raster::text_width;
 use super::ruler::{Ruler, Tick};
 use super::series::Points;
-use super::{Chart, Colour, Marker, Series, Shape, Stroke};
+use super::{Chart, Colour, Series, Shape, Stroke};
 
 /// Size of tick labels, points.
 const TICK: f64 = 7.0;
 /// Size of axis labels and titles, points.
 const LABEL: f64 = 7.5;
 const TITLE: f64 = 8.0;
-/// Opacity of a band.
-pub(super) const BAND: f64 = 0.25;
 /// Part of the height that data keep when far bounds are drawn as well.
 const KEPT: f64 = 1.0 / 3.0;
 
@@ -365,46 +364,6 @@ impl Frame {
                 if let Some([x, y]) = self.place(*at) {
                     canvas.text([x, y + 0.36 * TICK], Anchor::Middle, TICK, text);
                 }
-            }
-        }
-    }
-}
-
-/// One marker, some 4 points across.
-pub(super) fn mark(canvas: &mut Canvas, [x, y]: [f64; 2], marker: Marker, colour: Colour) {
-    const R: f64 = 2.0;
-    let filled = |canvas: &mut Canvas, corners: &[[f64; 2]]| {
-        canvas.polygon(corners, Some((colour, 0.5)), Some((colour, 1.0)));
-    };
-    match marker {
-        Marker::Disc => canvas.circle([x, y], R, colour, Some(colour)),
-        Marker::Ring => canvas.circle([x, y], R, colour, None),
-        Marker::Square => filled(
-            canvas,
-            &[
-                [x - R, y - R],
-                [x + R, y - R],
-                [x + R, y + R],
-                [x - R, y + R],
-            ],
-        ),
-        Marker::Triangle => filled(
-            canvas,
-            &[[x, y - 1.3 * R], [x + 1.2 * R, y + R], [x - 1.2 * R, y + R]],
-        ),
-        Marker::Diamond => filled(
-            canvas,
-            &[
-                [x, y - 1.4 * R],
-                [x + 1.4 * R, y],
-                [x, y + 1.4 * R],
-                [x - 1.4 * R, y],
-            ],
-        ),
-        Marker::Cross => {
-            for sign in [-1.0, 1.0] {
-                let line = [[x - R, y - sign * R], [x + R, y + sign * R]];
-                canvas.path(&line, colour, 1.0, Stroke::Solid);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The legend: samples and labels in rows above the chart.
 
 use super::canvas::{Anchor, Canvas};
-use super::draw::mark;
+use super::marks::{BAND, mark};
 use super::raster::text_width;
 use super::series::Points;
 use super::{Chart, Colour, Marker, Stroke};
@@ -106,7 +106,7 @@ impl Legend {
                         [from + SAMPLE, middle + 3.0],
                         [from, middle + 3.0],
                     ];
-                    canvas.polygon(&corners, None, Some((entry.colour, super::draw::BAND)));
+                    canvas.polygon(&corners, None, Some((entry.colour, BAND)));
                 } else {
                     canvas.path(&line, entry.colour, entry.width, entry.stroke);
                 }

@@ -30,6 +30,7 @@ mod colour;
 mod draw;
 mod figure;
 mod legend;
+mod marks;
 mod raster;
 mod ruler;
 mod series;

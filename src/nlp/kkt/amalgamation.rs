@@ -1,8 +1,8 @@
 //! Small fronts are merged where the fewer steps are worth the zeros they bring.
 
 use super::graph::Graph;
+use super::lanes::padded;
 use super::ordering::RawFronts;
-use super::symbolic::padded;
 
 /// A front by its unknowns, in postorder.
 #[derive(Debug, Default)]

@@ -2,7 +2,7 @@
 
 use super::division::PARTS;
 use super::noise;
-use super::part::Part;
+use super::part::{Inertia, Matrix, Part};
 use super::symbolic::Symbolic;
 use super::update::largest_finite;
 use crate::nlp::threads;
@@ -11,29 +11,6 @@ use crate::nlp::threads;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix has a value that is not finite")]
 pub struct NotFinite;
-
-/// What a factorisation found of a matrix.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Inertia {
-    /// Negative eigenvalues.
-    pub negative: usize,
-    /// Eigenvalues that are zero as far as rounding lets one tell.
-    pub zero: usize,
-    /// Pivots that were handed to a parent.
-    pub delayed: usize,
-    /// Pivots of order two.
-    pub pairs: usize,
-}
-
-/// What all parts are given of a matrix.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Matrix<'a> {
-    pub values: &'a [f64],
-    /// Least part of its column's largest entry a pivot may be.
-    pub threshold: f64,
-    /// See [`noise::suspected`].
-    pub suspected: f64,
-}
 
 /// The factors of a matrix, and the memory to make them.
 #[derive(Debug, Clone, Default)]

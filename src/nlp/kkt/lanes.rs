@@ -6,6 +6,11 @@
 /// Numbers in a vector.
 pub(super) const LANES: usize = 4;
 
+/// Rows padded to whole vectors.
+pub(super) fn padded(rows: usize) -> usize {
+    rows.next_multiple_of(LANES)
+}
+
 /// A vector of [`LANES`] numbers.
 pub(super) trait Vector: Copy {
     fn splat(value: f64) -> Self;

@@ -22,6 +22,7 @@ mod solve;
 mod symbolic;
 mod update;
 
-pub use factor::{Factors, Inertia, NotFinite};
+pub use factor::{Factors, NotFinite};
+pub use part::Inertia;
 pub use pattern::{Pattern, PatternError};
 pub use symbolic::Symbolic;

@@ -1,13 +1,35 @@
 //! Numerical factorisation of one part of the tree: its fronts assembled and eliminated in order.
 
-use super::factor::{Inertia, Matrix};
 #[cfg(target_arch = "x86_64")]
 use super::lanes::Avx2;
-use super::lanes::{Plain, Vector};
+use super::lanes::{Plain, Vector, padded};
 use super::noise::Noise;
 use super::panel::{Counts, Panel};
-use super::symbolic::{Front, PartSize, Symbolic, padded};
+use super::symbolic::{Front, PartSize, Symbolic};
 use super::update::subtract;
+
+/// What a factorisation found of a matrix.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Inertia {
+    /// Negative eigenvalues.
+    pub negative: usize,
+    /// Eigenvalues that are zero as far as rounding lets one tell.
+    pub zero: usize,
+    /// Pivots that were handed to a parent.
+    pub delayed: usize,
+    /// Pivots of order two.
+    pub pairs: usize,
+}
+
+/// What all parts are given of a matrix.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Matrix<'a> {
+    pub values: &'a [f64],
+    /// Least part of its column's largest entry a pivot may be.
+    pub threshold: f64,
+    /// See [`super::noise::suspected`].
+    pub suspected: f64,
+}
 
 /// Where the factors of one front are.
 #[derive(Debug, Clone, Copy, Default)]

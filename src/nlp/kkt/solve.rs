@@ -3,9 +3,9 @@
 use super::factor::Factors;
 #[cfg(target_arch = "x86_64")]
 use super::lanes::Avx2;
-use super::lanes::{LANES, Plain, Vector};
+use super::lanes::{LANES, Plain, Vector, padded};
 use super::part::{Part, Place};
-use super::symbolic::{Front, Symbolic, padded};
+use super::symbolic::{Front, Symbolic};
 use super::update::{axpy, axpy4, dot, dot4};
 
 impl Factors {

@@ -2,14 +2,9 @@
 
 use super::amalgamation::{self, Merged};
 use super::graph::Graph;
-use super::lanes::LANES;
+use super::lanes::padded;
 use super::{Pattern, dissection, division, ordering, pairs};
 use std::ops::Range;
-
-/// Rows padded to whole vectors.
-pub(super) fn padded(rows: usize) -> usize {
-    rows.next_multiple_of(LANES)
-}
 
 /// One front: the dense matrix of some pivots and the unknowns they are connected to.
 #[derive(Debug, Clone)]
