@@ -15,6 +15,7 @@ mod progress;
 mod report;
 mod reproduce;
 mod rows;
+mod schema;
 mod show;
 mod simulate;
 mod steps;
@@ -69,6 +70,7 @@ enum Command {
     Report(report::Arguments),
     Simulate(simulate::Arguments),
     Init(init::Arguments),
+    Schema(schema::Arguments),
     Completions(completions::Arguments),
     Doctor(doctor::Arguments),
 }
@@ -100,6 +102,7 @@ pub fn run() -> ExitCode {
         Command::Report(arguments) => report::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };

@@ -13,5 +13,6 @@ mod paper;
 mod planners;
 mod report;
 mod saved;
+mod schema;
 mod settings;
 mod usage;

@@ -19,6 +19,7 @@ fn help_names_every_command() {
         "simulate",
         "doctor",
         "init",
+        "schema",
         "completions",
     ] {
         assert!(
