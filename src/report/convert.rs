@@ -138,7 +138,7 @@ fn bounds(interval: &Interval) -> [Option<f64>; 2] {
     [interval.lower, interval.upper].map(|bound| bound.is_finite().then_some(bound))
 }
 
-fn timing(spent: &planner::Timing) -> Timing {
+pub(super) fn timing(spent: &planner::Timing) -> Timing {
     Timing {
         setup: spent.setup.as_secs_f64(),
         derivatives: spent.derivatives.as_secs_f64(),

@@ -1,5 +1,6 @@
 //! Numbers as a person reads them.
 
+use super::Timing;
 use crate::dynamics::attitude::SpatialAttitude;
 use std::time::Duration;
 
@@ -22,6 +23,23 @@ pub fn seconds(time: Duration) -> String {
         s if s < 10.0 => format!("{s:.2} s"),
         s => format!("{s:.1} s"),
     }
+}
+
+/// [`seconds`] of a number of them, s.
+pub(super) fn time(s: f64) -> String {
+    seconds(Duration::try_from_secs_f64(s).unwrap_or_default())
+}
+
+/// Where the time went.
+pub(super) fn shares(timing: Timing) -> String {
+    format!(
+        "{}: derivatives {}, linear solver {}, rest of Ipopt {}, set-up {}",
+        time(timing.total),
+        time(timing.derivatives),
+        time(timing.linear_solver),
+        time(timing.ipopt_other),
+        time(timing.setup)
+    )
 }
 
 /// An orientation as the rotation from the start, its axis in inertial axes.

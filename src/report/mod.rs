@@ -18,6 +18,7 @@ mod lines;
 mod number;
 mod output;
 mod page;
+mod peaks;
 mod provenance;
 mod read;
 mod rows;

@@ -1,7 +1,9 @@
 //! What a roboticist wants to know, in degrees and centimetres.
 
-use super::format::{centimetres, degrees, list, rotation, seconds};
+use super::convert;
+use super::format::{centimetres, degrees, list, rotation, seconds, shares};
 use super::lines::Lines;
+use super::peaks::Peaks;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
 use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Problem, Status};
@@ -33,18 +35,8 @@ pub fn summary(
         lines.add("warning", warning);
     }
     let time = &plan.timing;
-    let shares = || {
-        format!(
-            "{}: derivatives {}, linear solver {}, rest of Ipopt {}, set-up {}",
-            seconds(time.total),
-            seconds(time.derivatives),
-            seconds(time.linear_solver),
-            seconds(time.ipopt_other),
-            seconds(time.setup)
-        )
-    };
     let spent = match plan.method.optimises() {
-        true => shares(),
+        true => shares(convert::timing(time)),
         false => seconds(time.total),
     };
     lines.add("time", spent);
@@ -173,18 +165,9 @@ fn motion(lines: &mut Lines, robot: &Model, plan: &Plan) {
             list(&moved, centimetres)
         ),
     );
-    let joints = |kind| Peaks::of(robot, plan, kind);
-    if let Some(Peaks { rate, effort }) = joints(JointKind::Revolute) {
-        lines.add(
-            "joints",
-            format!("at most {}/s and {effort:.4} N·m", degrees(rate)),
-        );
-    }
-    if let Some(Peaks { rate, effort }) = joints(JointKind::Prismatic) {
-        lines.add(
-            "sliding joints",
-            format!("at most {}/s and {effort:.4} N", centimetres(rate)),
-        );
+    let rows = &plan.trajectory;
+    for peaks in Peaks::of(robot, &rows.joint_velocity, &rows.joint_torque) {
+        lines.add(peaks.label(), peaks.describe());
     }
 }
 
@@ -209,30 +192,6 @@ fn goals(lines: &mut Lines, problem: &Problem, plan: &Plan) {
                 found.t
             ),
         );
-    }
-}
-
-/// Largest magnitudes over all joints of a kind, which share their units.
-struct Peaks {
-    rate: f64,
-    effort: f64,
-}
-
-impl Peaks {
-    fn of(robot: &Model, plan: &Plan, kind: JointKind) -> Option<Self> {
-        let joints: Vec<usize> = (0..robot.joint_count())
-            .filter(|&joint| robot.joints()[joint].kind == kind)
-            .collect();
-        let peak = |rows: &[Vec<f64>]| {
-            let values = rows
-                .iter()
-                .flat_map(|row| joints.iter().filter_map(|&j| row.get(j)));
-            values.fold(0.0, |most: f64, value| most.max(value.abs()))
-        };
-        (!joints.is_empty()).then(|| Self {
-            rate: peak(&plan.trajectory.joint_velocity),
-            effort: peak(&plan.trajectory.joint_torque),
-        })
     }
 }
 

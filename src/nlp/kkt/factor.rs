@@ -32,8 +32,8 @@ impl Factors {
     /// Factorises the matrix with these values of the analysed pattern's entries.
     ///
     /// A pivot is at least `threshold` times the largest entry of its column, or is delayed.
-    /// Large matrices are divided among the threads ([`threads`]); the factors are the same, bit by bit,
-    /// for any number of them.
+    /// Large matrices are divided among the threads ([`threads`]); the factors are the same, bit by
+    /// bit, for any number of them.
     ///
     /// # Errors
     /// [`NotFinite`], the factors then being of no use.

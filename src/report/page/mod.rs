@@ -5,14 +5,14 @@ mod charts;
 mod scene;
 mod texts;
 
-use super::{Build, Solution, seconds};
+use super::format::time;
+use super::{Build, Solution};
 use crate::collocation::Mesh;
 use crate::planner::{Method, Problem, Trajectory, resampled, straight_motion};
 use crate::transcription::Discretization;
 use charts::Panel;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use scene::Scene;
-use std::time::Duration;
 use texts::Fact;
 
 const STYLE: &str = include_str!("page.css");
@@ -181,7 +181,7 @@ fn history(solution: &Solution) -> Markup {
                     td { (format!("{:.9}", record.objective)) }
                     td { (record.nlp_iterations) }
                     td { (record.nlp_status) }
-                    td { (seconds(Duration::from_secs_f64(record.seconds.max(0.0)))) }
+                    td { (time(record.seconds)) }
                 }
             }
         }

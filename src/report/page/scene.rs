@@ -80,8 +80,8 @@ impl Scene {
         }
     }
 
-    /// The largest turn of the base in the first motion and its turn at the end, and the same of its
-    /// shift; deg and cm.
+    /// The largest turn of the base in one of the motions and its turn at the end, and the same of
+    /// its shift; deg and cm.
     pub fn extremes(&self, motion: usize) -> Option<[[f64; 2]; 2]> {
         let motion = self.motions.get(motion)?;
         let of = |values: &[f64]| {

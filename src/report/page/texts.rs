@@ -3,8 +3,9 @@
 use super::scene::Scene;
 use crate::dynamics::JointKind;
 use crate::planner::Problem;
-use crate::report::{Solution, Verification, centimetres, degrees};
-use std::time::Duration;
+use crate::report::format::{centimetres, degrees, shares, time};
+use crate::report::peaks::Peaks;
+use crate::report::{Solution, Verification};
 
 /// A fact: what, how much, and where it needs one, what that means.
 pub(super) struct Fact {
@@ -87,52 +88,15 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
             ),
         ),
     ];
-    facts.extend(peaks(solution, problem));
-    let time = &solution.timing;
-    let seconds = |s: f64| crate::report::seconds(Duration::from_secs_f64(s.max(0.0)));
-    facts.push(fact(
-        "planned in",
-        format!(
-            "{}: derivatives {}, linear solver {}, rest of Ipopt {}, set-up {}",
-            seconds(time.total),
-            seconds(time.derivatives),
-            seconds(time.linear_solver),
-            seconds(time.ipopt_other),
-            seconds(time.setup)
-        ),
-    ));
-    facts
-}
-
-/// Largest rates and efforts, turning and sliding joints apart.
-fn peaks(solution: &Solution, problem: &Problem) -> Vec<Fact> {
-    let joints = problem.robot.joints();
-    let peak = |rows: &[Vec<f64>], kind: JointKind| {
-        let of = |row: &Vec<f64>| {
-            let values = row.iter().zip(joints);
-            values
-                .filter(|(_, joint)| joint.kind == kind)
-                .fold(0.0, |most: f64, (value, _)| most.max(value.abs()))
-        };
-        rows.iter().map(of).fold(0.0, f64::max)
-    };
     let rows = &solution.trajectory;
-    let mut facts = Vec::new();
-    for (kind, what) in [
-        (JointKind::Revolute, "joints"),
-        (JointKind::Prismatic, "sliding joints"),
-    ] {
-        if joints.iter().all(|joint| joint.kind != kind) {
-            continue;
-        }
-        let rate = peak(&rows.joint_velocity, kind);
-        let effort = peak(&rows.joint_torque, kind);
-        let value = match kind {
-            JointKind::Revolute => format!("at most {}/s and {effort:.4} N·m", degrees(rate)),
-            JointKind::Prismatic => format!("at most {}/s and {effort:.4} N", centimetres(rate)),
-        };
-        facts.push(Fact::new(what, value, ""));
+    for peaks in Peaks::of(&problem.robot, &rows.joint_velocity, &rows.joint_torque) {
+        facts.push(fact(peaks.label(), peaks.describe()));
     }
+    let spent = match solution.iterations[..] {
+        [] => time(solution.timing.total),
+        _ => shares(solution.timing),
+    };
+    facts.push(fact("planned in", spent));
     facts
 }
 
