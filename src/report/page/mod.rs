@@ -65,7 +65,7 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
                 section { h2 { "In figures" } (facts(&texts::figures(solution, problem))) }
                 section {
                     h2 {
-                        @if status == "solved" { "Why the numbers can be trusted" }
+                        @if status == "solved" && solution.verification.is_some() { "Why the numbers can be trusted" }
                         @else { "What was checked" }
                     }
                     (facts(&texts::evidence(solution, problem)))

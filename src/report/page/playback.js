@@ -144,7 +144,7 @@
       `base turned ${number(between(motion.turned, at), 1)}°, shifted ${number(between(motion.shifted, at), 2)} cm`;
   }
 
-  let part = 0, playing = false, last = 0;
+  let part = 0, playing = false, last = null;
   function show() {
     const time = part * scene.duration;
     slider.value = part;
@@ -155,7 +155,8 @@
   }
   function step(now) {
     if (!playing) return;
-    part += ((now - last) / 1000) * (Number(speeds.value) / scene.duration);
+    // A frame's time may lie before the call that asked for it: the first frame only sets the clock.
+    part += (Math.max(0, now - (last ?? now)) / 1000) * (Number(speeds.value) / scene.duration);
     last = now;
     if (part >= 1) { part = 1; play(false); }
     show();
@@ -166,7 +167,7 @@
     button.textContent = on ? "❚❚" : "▶";
     if (!on) return;
     if (part >= 1) part = 0;
-    last = performance.now();
+    last = null;
     requestAnimationFrame(step);
   }
 

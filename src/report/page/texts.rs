@@ -137,7 +137,7 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
         None => facts.push(Fact::new(
             "re-integration",
             "none".into(),
-            "only plans that hold their equations are integrated again",
+            "this motion was not integrated again with the full equations; `verify` does that",
         )),
     }
     for goal in &solution.goals {
