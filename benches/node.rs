@@ -6,7 +6,8 @@
 use ffsm_ipopt::autodiff::has_fused;
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::ocp::{Ocp, Point};
-use ffsm_ipopt::planner::{FreeFloating, Problem};
+use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::system::FreeFloating;
 use std::hint::black_box;
 use std::io::Read;
 use std::path::Path;

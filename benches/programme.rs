@@ -8,7 +8,9 @@ mod trees;
 use criterion::{Criterion, criterion_group, criterion_main};
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::nlp::Nlp;
-use ffsm_ipopt::planner::{FreeFloating, Planner, Problem};
+use ffsm_ipopt::planner::Planner;
+use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Patterns, Transcription};
 use std::hint::black_box;
 

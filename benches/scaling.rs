@@ -7,8 +7,9 @@ mod trees;
 
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::nlp::{self, Control, Statistics};
-use ffsm_ipopt::planner::{FreeFloating, Problem};
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::refine::{Refinement, Settings, Start};
+use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Discretization, Patterns};
 
 /// Iterations timed: enough to average, few enough for the largest arm.

@@ -7,7 +7,8 @@
 use ffsm_ipopt::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, Model, Placement};
 use ffsm_ipopt::nalgebra::{Matrix3, Vector3};
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{Problem, Status, plan};
+use ffsm_ipopt::planner::{Status, plan};
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::verify::verify;
 use std::error::Error;
 

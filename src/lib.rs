@@ -9,10 +9,14 @@ pub mod nlp;
 pub mod ocp;
 pub mod planner;
 pub mod plot;
+pub mod problem;
 pub mod refine;
 pub mod report;
 pub mod reproduction;
 pub mod simulate;
+pub mod solution;
+pub mod study;
+pub mod system;
 pub mod transcription;
 pub mod verify;
 

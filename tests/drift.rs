@@ -6,7 +6,8 @@ mod trees;
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{Plan, Problem, Status, plan};
+use ffsm_ipopt::planner::{Plan, Status, plan};
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::verify::verify;
 
 #[test]

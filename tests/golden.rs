@@ -7,7 +7,9 @@
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::space::{Space, Vector};
 use ffsm_ipopt::dynamics::{Data, Tree};
-use ffsm_ipopt::planner::{Problem, Status, plan, straight_line};
+use ffsm_ipopt::planner::{Status, plan};
+use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::system::straight_line;
 use serde::Deserialize;
 
 #[derive(Deserialize)]

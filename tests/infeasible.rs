@@ -4,7 +4,8 @@ mod problems;
 
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{Problem, Status, plan};
+use ffsm_ipopt::planner::{Status, plan};
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::reproduction::bounds::{Connection, Grid};
 use std::f64::consts::PI;
 

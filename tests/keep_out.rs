@@ -2,7 +2,8 @@
 
 mod problems;
 
-use ffsm_ipopt::planner::{KeepOut, Obstacle, Plan, Problem, Sphere, Status, plan};
+use ffsm_ipopt::planner::{Plan, Status, plan};
+use ffsm_ipopt::problem::{KeepOut, Obstacle, Problem, Sphere};
 
 /// The two-link arm swings its elbow from one side to the other, past a mast on the base.
 fn swing() -> Problem {

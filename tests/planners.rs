@@ -6,9 +6,9 @@ use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{
-    CostTerms, Method, Plan, PlanError, Planner, Problem, Status, straight_line,
-};
+use ffsm_ipopt::planner::{Method, Plan, PlanError, Planner, Status};
+use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::system::{CostTerms, straight_line};
 use ffsm_ipopt::verify::verify;
 
 fn plan(method: Method, problem: &Problem) -> Plan {

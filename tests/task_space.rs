@@ -7,10 +7,9 @@ use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::Placement;
 use ffsm_ipopt::nalgebra::{Matrix3, Rotation3, Vector3};
 use ffsm_ipopt::ocp::{Ocp, Point};
-use ffsm_ipopt::planner::{
-    EndEffectorGoal, FreeFloating, GoalFrame, Moment, Plan, Planner, Problem, Status, WayPoint,
-    plan,
-};
+use ffsm_ipopt::planner::{Plan, Planner, Status, plan};
+use ffsm_ipopt::problem::{EndEffectorGoal, GoalFrame, Moment, Problem, WayPoint};
+use ffsm_ipopt::system::FreeFloating;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 /// The smooth two-link case with an end effector at the forearm's end.

@@ -4,8 +4,9 @@ mod problems;
 
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{Plan, Planner, Start, Status, plan, straight_line};
+use ffsm_ipopt::planner::{Plan, Planner, Start, Status, plan};
 use ffsm_ipopt::refine::{Decision, Method};
+use ffsm_ipopt::system::straight_line;
 
 #[test]
 fn straight_joint_path_turns_the_base() {
@@ -111,7 +112,7 @@ fn both_forms_of_the_dynamics_plan_the_same() {
     let plane = plan(&problems::smooth()).unwrap();
     let mut problem = problems::smooth();
     let robot = problem.robot.in_space();
-    let spatial = ffsm_ipopt::planner::Problem::new("space", robot, 20.0, &[0.0; 2], &[0.0; 2]);
+    let spatial = ffsm_ipopt::problem::Problem::new("space", robot, 20.0, &[0.0; 2], &[0.0; 2]);
     problem.robot = spatial.robot;
     let yaw_only = |value: f64| vec![0.0, 0.0, value];
     problem.cost.final_base_attitude = yaw_only(1.0);

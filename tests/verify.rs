@@ -10,7 +10,7 @@ use ffsm_ipopt::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
 use ffsm_ipopt::dynamics::space::Space;
 use ffsm_ipopt::dynamics::{Data, Model, Tree};
 use ffsm_ipopt::nalgebra::Vector3;
-use ffsm_ipopt::planner::Problem;
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::transcription::Discretization;
 use ffsm_ipopt::verify::integrate::{DormandPrince, Motion, Stuck};
 use ffsm_ipopt::verify::{Verification, VerifyError, verify};

@@ -7,11 +7,12 @@ use crate::config::{Overrides, ProblemFile};
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::ocp::Interval;
-use crate::planner::{
-    EndEffectorGoal, GoalFrame, KeepOut, Moment, Obstacle, Problem, Sphere, WayPoint, straight_line,
+use crate::problem::{
+    EndEffectorGoal, GoalFrame, KeepOut, Moment, Obstacle, Problem, Sphere, WayPoint,
 };
 use crate::refine::Method;
 use crate::report::{Lines, rotation};
+use crate::system::straight_line;
 use clap::Args;
 use std::path::PathBuf;
 

@@ -5,8 +5,9 @@ use super::progress::Progress;
 use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
-use crate::planner::{Comparison, Status};
+use crate::planner::Status;
 use crate::report::{ComparisonReport, OutputFolder, comparison_figure};
+use crate::study::Comparison;
 use clap::Args;
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,8 @@
 use super::failure::Failure;
 use super::{Outcome, terminal};
 use crate::nlp::{self, ipopt, threads};
-use crate::report::{Build, Lines};
+use crate::report::Lines;
+use crate::solution::Build;
 use clap::Args;
 use std::path::Path;
 

@@ -4,9 +4,10 @@ use super::Outcome;
 use crate::config::{ConfigError, ProblemFile};
 use crate::nlp::ipopt::IpoptError;
 use crate::planner::PlanError;
-use crate::report::{OutputError, SolutionError};
+use crate::report::OutputError;
 use crate::reproduction::ReproductionError;
 use crate::simulate::SimulateError;
+use crate::solution::SolutionError;
 use crate::verify::VerifyError;
 use std::path::Path;
 

@@ -24,7 +24,7 @@ mod terminal;
 mod verify;
 
 use crate::nlp::threads;
-use crate::report::Build;
+use crate::solution::Build;
 use clap::{Parser, Subcommand};
 use std::num::NonZero;
 use std::process::ExitCode;

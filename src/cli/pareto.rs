@@ -6,8 +6,8 @@ use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::Status;
-use crate::planner::front::{Front, balanced, factors};
 use crate::report::{FrontReport, OutputFolder};
+use crate::study::pareto::{Front, balanced, factors};
 use clap::Args;
 use std::path::{Path, PathBuf};
 

@@ -5,7 +5,8 @@ use super::progress::Progress;
 use super::{Outcome, interrupt, terminal};
 use crate::config::{ConfigError, Overrides, ProblemFile};
 use crate::planner::{Method, Plan, Planner, Status};
-use crate::report::{self, OutputFolder, Provenance};
+use crate::report::{self, OutputFolder};
+use crate::solution::{self, Provenance};
 use crate::verify::{self, Verification, verify};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -87,7 +88,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let file = ProblemFile::load(&arguments.problem, &arguments.overrides()?)?;
     let warm_start = arguments.warm_start.as_deref();
     let start = warm_start
-        .map(|path| report::read_warm_start(path, &file.problem))
+        .map(|path| solution::read_warm_start(path, &file.problem))
         .transpose()?;
     let default = || Path::new("out").join(&file.problem.name);
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
@@ -145,21 +146,21 @@ pub(super) fn write(
     folder: &OutputFolder,
 ) -> Result<(String, Vec<PathBuf>), Failure> {
     let provenance = Provenance::of(file, &plan.linear_solver);
-    let solution = report::solution(&file.problem.name, plan, checked, provenance);
+    let saved = solution::solution(&file.problem.name, plan, checked, provenance);
     let failure = |message: String| Failure::Format {
         path: file.path.clone(),
         message,
     };
-    let json = report::to_json(&solution).map_err(|error| failure(error.to_string()))?;
+    let json = solution::to_json(&saved).map_err(|error| failure(error.to_string()))?;
     let csv =
-        report::trajectory_csv(&solution.trajectory).map_err(|error| failure(error.to_string()))?;
+        solution::trajectory_csv(&saved.trajectory).map_err(|error| failure(error.to_string()))?;
     let mut files = vec![
         folder.write("solution.json", &json)?,
         folder.write("trajectory.csv", &csv)?,
     ];
     // A trajectory with values that are no numbers has nothing to show.
     if verify::check(&file.problem, &plan.discretization).is_ok() {
-        let page = report::page(&solution, &file.problem, &plan.discretization);
+        let page = report::page(&saved, &file.problem, &plan.discretization);
         files.push(folder.write("report.html", &page)?);
     }
     Ok((json, files))

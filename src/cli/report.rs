@@ -2,7 +2,8 @@
 
 use super::failure::Failure;
 use super::{Outcome, terminal};
-use crate::report::{Lines, OutputFolder, Saved, page};
+use crate::report::{Lines, OutputFolder, page};
+use crate::solution::Saved;
 use crate::verify::check;
 use clap::Args;
 use std::path::{Path, PathBuf};

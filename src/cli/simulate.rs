@@ -4,8 +4,9 @@ use super::failure::Failure;
 use super::{Outcome, fit, terminal};
 use crate::config::PlatformFile;
 use crate::dynamics::JointKind;
-use crate::report::{OutputFolder, Saved, Simulation};
+use crate::report::{OutputFolder, Simulation};
 use crate::simulate::{Player, SimulateError};
+use crate::solution::Saved;
 use clap::Args;
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,8 @@
 use super::failure::Failure;
 use super::{Outcome, terminal};
 use crate::dynamics::JointKind;
-use crate::report::{OutputFolder, Saved, verification_json, verification_summary};
+use crate::report::{OutputFolder, verification_json, verification_summary};
+use crate::solution::Saved;
 use crate::verify::verify;
 use clap::Args;
 use std::path::{Path, PathBuf};

@@ -4,7 +4,7 @@ use super::ConfigError;
 use super::document::quoted;
 use super::item::Item;
 use super::values::Components;
-use crate::planner::{EndEffectorGoal, GoalFrame};
+use crate::problem::{EndEffectorGoal, GoalFrame};
 
 /// `end_effector`.
 pub(super) fn end_effector(

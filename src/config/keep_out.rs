@@ -4,7 +4,7 @@ use super::ConfigError;
 use super::document::quoted;
 use super::item::{Item, hint};
 use super::robot::Robot;
-use crate::planner::{KeepOut, Obstacle, Sphere};
+use crate::problem::{KeepOut, Obstacle, Sphere};
 use nalgebra::Vector3;
 
 /// The array of pairs.

@@ -1,5 +1,5 @@
 //! Problem, robot and platform files: TOML in, a validated
-//! [`Problem`](crate::planner::Problem) or [`Platform`](crate::simulate::Platform) out.
+//! [`Problem`](crate::problem::Problem) or [`Platform`](crate::simulate::Platform) out.
 //!
 //! A document is parsed with the line of every value ([`Place`]), values given on the command
 //! line are laid over it ([`Overrides`]), and one reader a table turns it into a problem. Every

@@ -6,7 +6,7 @@ use super::item::{Item, Section};
 use super::robot::{self, Robot, RobotFile};
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, tables};
-use crate::planner::{Problem, ProblemError};
+use crate::problem::{Problem, ProblemError};
 use std::path::Path;
 
 /// A problem and the files it was read from.

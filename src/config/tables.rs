@@ -10,7 +10,7 @@ use super::values::Components;
 use super::way_point;
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
-use crate::planner::{Cost, Limits, Momentum, Task};
+use crate::problem::{Cost, Limits, Momentum, Task};
 use crate::refine::{self, Method};
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish.

@@ -4,7 +4,7 @@ use super::ConfigError;
 use super::goal;
 use super::item::Item;
 use super::values::Components;
-use crate::planner::{Moment, WayPoint};
+use crate::problem::{Moment, WayPoint};
 
 /// The array of way-points.
 pub(super) fn read(

@@ -1,11 +1,6 @@
-//! The planners by name, and one way to call any of them.
+//! The planners by name.
 
-use super::{
-    Event, Plan, PlanError, Planner, Problem, acceleration_qp, base_rate, matpm,
-    reaction_null_space, straight_quintic,
-};
-use crate::nlp::Control;
-use crate::refine::{self, Start};
+use crate::refine;
 
 /// How a plan is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,38 +61,5 @@ impl Method {
     /// Whether it solves an optimal control problem, on a mesh that is refined.
     pub fn optimises(self) -> bool {
         matches!(self, Self::Collocation(_) | Self::BaseRate)
-    }
-}
-
-impl Planner {
-    /// Plans `problem` by `method`, whatever method the problem's mesh names.
-    ///
-    /// A start serves the methods that optimise; the others have no use for one.
-    ///
-    /// # Errors
-    /// [`PlanError`], a task that the method is not made for included; an infeasible or
-    /// unconverged problem is no error but a [`Status`](super::Status).
-    pub fn plan_by(
-        &mut self,
-        method: Method,
-        problem: &Problem,
-        start: Option<&Start>,
-        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
-    ) -> Result<Plan, PlanError> {
-        match method {
-            Method::Collocation(method) if problem.mesh.method == method => {
-                self.plan_with(problem, start, monitor)
-            }
-            Method::Collocation(method) => {
-                let mut problem = problem.clone();
-                problem.mesh.method = method;
-                self.plan_with(&problem, start, monitor)
-            }
-            Method::BaseRate => base_rate::plan(self, problem, start, monitor),
-            Method::Matpm => matpm::plan(problem),
-            Method::StraightLine => straight_quintic::plan(problem),
-            Method::ReactionNullSpace => reaction_null_space::plan(problem),
-            Method::AccelerationQp => acceleration_qp::plan(problem, monitor),
-        }
     }
 }

@@ -1,49 +1,16 @@
-//! Planners: from a [`Problem`] to a [`Plan`].
+//! Planners: from a [`Problem`](crate::problem::Problem) to a [`Plan`].
 
-mod acceleration_qp;
-mod base_rate;
-mod comparison;
-mod cost_terms;
-mod diagnosis;
+mod collocation;
+mod dispatch;
+mod error;
 mod event;
-mod excess;
-mod free_floating;
-pub mod front;
-mod goal;
-mod guess;
-mod joint_motion;
-mod keep_out;
-mod matpm;
+mod joint_space;
 mod method;
-mod momentum;
-mod node_derivatives;
 mod plan;
-mod problem;
-mod radau;
-mod reached;
-mod reaction_null_space;
-mod replan;
-mod straight_line;
-mod straight_quintic;
-mod trajectory;
-mod turn;
-mod way_point;
 
 pub use crate::refine::Start;
-pub use base_rate::REGULARIZATION as BASE_RATE_REGULARIZATION;
-pub use comparison::{Comparison, Entry};
-pub use cost_terms::{CostTerms, JointEffort};
+pub use collocation::{BASE_RATE_REGULARIZATION, Planner, plan};
+pub use error::PlanError;
 pub use event::Event;
-pub use free_floating::FreeFloating;
-pub use goal::{EndEffectorGoal, GoalFrame};
-pub use guess::through;
-pub use keep_out::{KeepOut, Obstacle, Sphere};
 pub use method::Method;
-pub use momentum::Momentum;
-pub use plan::{Diagnosis, LimitFinding, Metrics, Plan, Status, Timing, Trajectory};
-pub use problem::{Cost, Limits, Problem, ProblemError, Task};
-pub use radau::{PlanError, Planner, plan};
-pub use reached::{Reached, reached};
-pub use straight_line::{StraightLine, straight_line, straight_motion};
-pub use trajectory::{resampled, turned};
-pub use way_point::{Moment, WayPoint};
+pub use plan::{Diagnosis, LimitFinding, Plan, Status, Timing};

@@ -2,7 +2,9 @@
 
 use super::Sheet;
 use super::rows::Rows;
-use crate::planner::{Comparison, Entry, JointEffort, Metrics, Status};
+use crate::planner::Status;
+use crate::study::{Comparison, Entry};
+use crate::system::{JointEffort, Metrics};
 use serde::Serialize;
 
 /// One task by every planner.

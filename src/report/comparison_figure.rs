@@ -3,8 +3,11 @@
 use crate::collocation::Mesh;
 use crate::dynamics::JointKind;
 use crate::ocp::Interval;
-use crate::planner::{Comparison, Plan, Problem, Trajectory, resampled, turned};
+use crate::planner::Plan;
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Stroke, Width};
+use crate::problem::Problem;
+use crate::study::Comparison;
+use crate::system::{Trajectory, resampled, turned};
 
 /// Segments of two points that a motion is drawn with.
 const SEGMENTS: usize = 150;

@@ -1,7 +1,8 @@
 //! What `simulate --fit` leaves behind: `fit.md`, which is also printed, and `fit.json`.
 
-use super::{Build, Sheet, to_json};
+use super::Sheet;
 use crate::simulate::fit::{Comparison, Fit, Fitted, Scale};
+use crate::solution::{Build, to_json};
 use serde::Serialize;
 
 /// Hypotheses about a platform, each fitted to the same measurements.

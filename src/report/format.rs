@@ -1,7 +1,7 @@
 //! Numbers as a person reads them.
 
-use super::Timing;
 use crate::dynamics::attitude::SpatialAttitude;
+use crate::solution::Timing;
 use std::time::Duration;
 
 /// An angle (rad) in degrees, three decimals.

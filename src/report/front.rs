@@ -2,8 +2,8 @@
 
 use super::Sheet;
 use super::rows::Rows;
-use crate::planner::JointEffort;
-use crate::planner::front::FrontPoint;
+use crate::study::pareto::FrontPoint;
+use crate::system::JointEffort;
 use serde::Serialize;
 
 /// The trade-off between the base's motion and the joints' effort.

@@ -1,7 +1,7 @@
 //! Rows of results about one problem, as CSV and JSON.
 
-use super::{Build, to_json};
 use crate::nlp::ipopt;
+use crate::solution::{Build, to_json};
 use serde::Serialize;
 
 /// Rows of results about one problem, with what a reader should know of them.

@@ -1,10 +1,11 @@
 //! What `simulate` leaves behind: `simulation.json`, `simulation.csv` and the table a person
 //! reads.
 
+use super::Lines;
 use super::format::{centimetres, degrees};
-use super::{Build, Lines, number, to_json};
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Stroke, Width};
 use crate::simulate::{Figures, Run, Spread};
+use crate::solution::{Build, number, to_json};
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
 use std::path::PathBuf;

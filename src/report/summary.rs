@@ -1,12 +1,13 @@
 //! What a roboticist wants to know, in degrees and centimetres.
 
-use super::convert;
 use super::format::{centimetres, degrees, list, rotation, seconds, shares};
 use super::lines::Lines;
 use super::peaks::Peaks;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
-use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Problem, Status};
+use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Status};
+use crate::problem::Problem;
+use crate::solution;
 use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
@@ -36,7 +37,7 @@ pub fn summary(
     }
     let time = &plan.timing;
     let spent = match plan.method.optimises() {
-        true => shares(convert::timing(time)),
+        true => shares(solution::timing(time)),
         false => seconds(time.total),
     };
     lines.add("time", spent);

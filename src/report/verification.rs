@@ -1,7 +1,8 @@
 //! What `verify` leaves behind: `verification.json` and the lines a person reads.
 
-use super::convert;
-use super::{Build, Lines, Verification, to_json};
+use super::Lines;
+use crate::solution;
+use crate::solution::{Build, Verification, to_json};
 use crate::verify;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -30,7 +31,7 @@ pub fn verification_json(
         name,
         solution: path.display().to_string(),
         version: Build::VERSION,
-        verification: convert::verification(found),
+        verification: solution::verification(found),
     })
 }
 

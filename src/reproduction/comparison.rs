@@ -3,9 +3,11 @@
 use super::figures::Drawn;
 use super::{RELAXED, ReproductionError, Session};
 use crate::config::ProblemFile;
-use crate::planner::{Comparison, Method, Problem};
+use crate::planner::Method;
+use crate::problem::Problem;
 use crate::refine;
 use crate::report::{ComparisonReport, comparison_figure};
+use crate::study::Comparison;
 
 /// The shipped problems that planners are compared on.
 const PROBLEMS: [&str; 2] = [RELAXED, "chaser-7dof-heavy"];

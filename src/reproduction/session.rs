@@ -2,11 +2,14 @@
 
 use crate::config::ConfigError;
 use crate::nlp::Control;
-use crate::planner::front::Front;
-use crate::planner::{Comparison, Event, Method, Plan, PlanError, Planner, Problem, Status};
+use crate::planner::{Event, Method, Plan, PlanError, Planner, Status};
+use crate::problem::Problem;
 use crate::refine::Start;
-use crate::report::{OutputError, SolutionError};
+use crate::report::OutputError;
 use crate::simulate::SimulateError;
+use crate::solution::SolutionError;
+use crate::study::Comparison;
+use crate::study::pareto::Front;
 use rustix::time::{ClockId, clock_gettime};
 
 /// Why nothing came of it.

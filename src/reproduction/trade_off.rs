@@ -4,8 +4,8 @@ use super::figures::Drawn;
 use super::{RELAXED, ReproductionError, Session};
 use crate::config::ProblemFile;
 use crate::planner::Status;
-use crate::planner::front::{Front, FrontPoint, balanced, factors};
 use crate::report::FrontReport;
+use crate::study::pareto::{Front, FrontPoint, balanced, factors};
 
 /// Base motion against joint effort, as `pareto` does it unless told otherwise.
 #[derive(Debug, Clone)]

@@ -9,7 +9,7 @@ use super::reference::{PlannedBase, Reference};
 use super::run::{self, Run};
 use crate::dynamics::Tree;
 use crate::dynamics::space::Planar;
-use crate::planner::Problem;
+use crate::problem::Problem;
 use crate::transcription::Discretization;
 use crate::verify;
 use nalgebra::Vector2;

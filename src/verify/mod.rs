@@ -21,7 +21,7 @@ mod pass;
 mod polynomial;
 mod replay;
 
-use crate::planner::Problem;
+use crate::problem::Problem;
 use crate::transcription::Discretization;
 
 /// What re-integration found: largest differences between plan and re-integration.

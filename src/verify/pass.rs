@@ -6,7 +6,7 @@ use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
 use super::{Verification, VerifyError};
 use crate::dynamics::Model;
 use crate::dynamics::attitude::SpatialAttitude;
-use crate::planner::Problem;
+use crate::problem::Problem;
 use crate::transcription::Discretization;
 use nalgebra::{UnitQuaternion, Vector3};
 

@@ -7,7 +7,8 @@ use crate::trees;
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::ocp::{Elastic, Interval, LimitGroup};
-use ffsm_ipopt::planner::{FreeFloating, GoalFrame};
+use ffsm_ipopt::problem::GoalFrame;
+use ffsm_ipopt::system::FreeFloating;
 
 #[test]
 fn a_system_that_drifts_and_tumbles() {

@@ -3,7 +3,7 @@
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::dynamics::{Model, Placement};
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{EndEffectorGoal, GoalFrame, Problem};
+use ffsm_ipopt::problem::{EndEffectorGoal, GoalFrame, Problem};
 
 /// Every weight and every limit at work.
 pub fn loaded(robot: Model) -> Problem {

@@ -6,7 +6,8 @@ use crate::problems;
 use crate::trees;
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::ocp::{Elastic, Interval};
-use ffsm_ipopt::planner::{FreeFloating, GoalFrame, KeepOut, Moment, Obstacle, Sphere, WayPoint};
+use ffsm_ipopt::problem::{GoalFrame, KeepOut, Moment, Obstacle, Sphere, WayPoint};
+use ffsm_ipopt::system::FreeFloating;
 
 /// `problem` with a pose for the end effector, fixed in the last body.
 

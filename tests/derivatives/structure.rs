@@ -9,7 +9,8 @@ use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::nalgebra::Vector3;
 use ffsm_ipopt::nlp::Nlp;
 use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, Interval, Ocp, Passage, Point};
-use ffsm_ipopt::planner::{FreeFloating, KeepOut, Obstacle, Problem, Sphere};
+use ffsm_ipopt::problem::{KeepOut, Obstacle, Problem, Sphere};
+use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Patterns, Transcription};
 
 /// A problem without derivatives of its own, so that dual numbers are swept over all of it.

@@ -4,7 +4,7 @@
 use ffsm_ipopt::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, Model, Placement};
 use ffsm_ipopt::nalgebra::{Matrix3, Vector3};
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::Problem;
+use ffsm_ipopt::problem::Problem;
 use std::f64::consts::PI;
 
 /// The two-link manipulator of the paper's Table I.

@@ -2,7 +2,7 @@
 
 use crate::problems::two_link;
 use ffsm_ipopt::collocation::Mesh;
-use ffsm_ipopt::planner::Problem;
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::simulate::{Platform, Player, Run};
 use ffsm_ipopt::transcription::Discretization;
 

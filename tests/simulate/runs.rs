@@ -4,7 +4,7 @@ use crate::platforms::*;
 use crate::problems::two_link;
 use crate::trees;
 use ffsm_ipopt::collocation::Mesh;
-use ffsm_ipopt::planner::Problem;
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::simulate::{Figures, Platform, Player, Run, SimulateError};
 use ffsm_ipopt::transcription::Discretization;
 

@@ -10,7 +10,7 @@ use super::files::Files;
 use super::item::{Item, hint};
 use super::{ConfigError, Place};
 use crate::dynamics::{Inertia, Model, ModelError, Placement};
-use crate::planner::Problem;
+use crate::problem::Problem;
 use description::{Description, Entry};
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use super::description::Entry;
 use crate::ocp::Interval;
-use crate::planner::Problem;
+use crate::problem::Problem;
 
 /// Deviation from the plane (rad, m, relative) below which a plane may have been meant.
 const NEARLY: f64 = 2e-3;

@@ -4,9 +4,10 @@ use crate::collocation::Mesh;
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
 use crate::ocp::Interval;
-use crate::planner::{Problem, Trajectory, resampled, turned};
 use crate::plot::{Axis, Chart, Colour, Figure, Marker, Series, Stroke, Width};
-use crate::report::{Iteration, Solution};
+use crate::problem::Problem;
+use crate::solution::{Iteration, Solution};
+use crate::system::{Trajectory, resampled, turned};
 use crate::transcription::Discretization;
 
 /// Even segments that a curve is drawn with, beside those of its mesh.

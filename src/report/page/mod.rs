@@ -6,9 +6,11 @@ mod scene;
 mod texts;
 
 use super::format::time;
-use super::{Build, Solution};
 use crate::collocation::Mesh;
-use crate::planner::{Method, Problem, Trajectory, resampled, straight_motion};
+use crate::planner::Method;
+use crate::problem::Problem;
+use crate::solution::{Build, Solution};
+use crate::system::{Trajectory, resampled, straight_motion};
 use crate::transcription::Discretization;
 use charts::Panel;
 use maud::{DOCTYPE, Markup, PreEscaped, html};

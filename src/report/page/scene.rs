@@ -2,7 +2,8 @@
 
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::dynamics::{Body, Model};
-use crate::planner::{KeepOut, Obstacle, Problem, Sphere, Trajectory};
+use crate::problem::{KeepOut, Obstacle, Problem, Sphere};
+use crate::system::Trajectory;
 use crate::verify::bodies::{BaseMotion, Bodies, orientation};
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
 use serde::Serialize;

@@ -2,10 +2,10 @@
 
 use super::scene::Scene;
 use crate::dynamics::JointKind;
-use crate::planner::Problem;
+use crate::problem::Problem;
 use crate::report::format::{centimetres, degrees, shares, time};
 use crate::report::peaks::Peaks;
-use crate::report::{Solution, Verification};
+use crate::solution::{Solution, Verification};
 
 /// A fact: what, how much, and where it needs one, what that means.
 pub(super) struct Fact {

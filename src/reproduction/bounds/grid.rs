@@ -2,7 +2,7 @@
 
 use crate::dynamics::space::Planar;
 use crate::dynamics::{Data, Tree};
-use crate::planner::Problem;
+use crate::problem::Problem;
 
 /// One step moves each joint by one cell at most.
 const MOVES: [[isize; 2]; 9] = [

@@ -2,9 +2,11 @@
 
 use crate::nlp;
 use crate::ocp::Interval;
-use crate::planner::{Event, FreeFloating, PlanError, Problem, Start, through};
+use crate::planner::{Event, PlanError, Start};
+use crate::problem::Problem;
 use crate::refine::{self, Method, Refinement};
 use crate::reproduction::{ReproductionError, Session};
+use crate::system::{FreeFloating, through};
 use crate::transcription::{Discretization, Patterns};
 
 /// Starts through random way-points; loops come before them.

@@ -3,9 +3,10 @@
 use super::{Connection, CurvatureBound, Grid, Reached, largest_final_attitude};
 use crate::config::ProblemFile;
 use crate::ocp::Interval;
-use crate::planner::{Plan, Start, straight_line};
+use crate::planner::{Plan, Start};
 use crate::reproduction::figures::{Case, Extremes};
 use crate::reproduction::{ReproductionError, Session};
+use crate::system::straight_line;
 use serde::Serialize;
 
 /// Angles of the dynamic programme's grid, 3° apart over the paper's joint limits.

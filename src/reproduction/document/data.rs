@@ -1,9 +1,9 @@
 //! What is written beside the document: data and figures.
 
 use super::Findings;
-use crate::report::to_json;
 use crate::reproduction::figures::{self, Drawn};
 use crate::reproduction::{ReproductionError, table2};
+use crate::solution::to_json;
 
 /// Files by name: tables as CSV, the rest as JSON.
 ///

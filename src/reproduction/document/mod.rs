@@ -12,7 +12,8 @@ use super::platform::Platform;
 use super::table2::{self, Row, SensitivityRow, SweepRow};
 use super::{Compared, ReproductionError, Session, TradeOff, compared};
 use crate::nlp::ipopt;
-use crate::report::{Build, Sheet};
+use crate::report::Sheet;
+use crate::solution::Build;
 
 /// Everything the document is written from.
 #[derive(Debug, Clone)]

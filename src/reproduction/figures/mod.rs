@@ -20,8 +20,9 @@ pub use states::states;
 
 use super::{CASES, HEAVY, ReproductionError, Session};
 use crate::config::ProblemFile;
-use crate::planner::{Method, Plan, Problem};
+use crate::planner::{Method, Plan};
 use crate::plot::Figure;
+use crate::problem::Problem;
 use crate::refine::Record;
 use crate::transcription::Discretization;
 

@@ -4,7 +4,7 @@ use super::Case;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Planar;
 use crate::dynamics::{Data, Mount, Placement};
-use crate::planner::FreeFloating;
+use crate::system::FreeFloating;
 
 /// One instant of a planar motion; angles in degrees, lengths in m.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,8 @@
 //! With which base MATPM would turn as far as was measured.
 
 use crate::dynamics::{Body, Inertia, Model};
-use crate::planner::{Problem, straight_line};
+use crate::problem::Problem;
+use crate::system::straight_line;
 use serde::Serialize;
 
 /// Factors on the published inertia among which the answer is sought.

@@ -2,11 +2,13 @@
 
 use crate::config::{FitFile, PlanSource};
 use crate::nlp::ipopt::interrupt;
-use crate::planner::{Method, PlanError, Problem, Status};
-use crate::report::{FitReport, Saved};
+use crate::planner::{Method, PlanError, Status};
+use crate::problem::Problem;
+use crate::report::FitReport;
 use crate::reproduction::{ReproductionError, Session};
 use crate::simulate::fit::Experiments;
 use crate::simulate::{Player, SimulateError};
+use crate::solution::Saved;
 use crate::transcription::Discretization;
 
 /// A plan with what it is a plan of, and how it was come by in words.

@@ -1,6 +1,7 @@
 //! What is measured of a plan, or of several of the same.
 
-use crate::planner::{Problem, Status};
+use crate::planner::Status;
+use crate::problem::Problem;
 use crate::refine::Method;
 use crate::report::{exact, short};
 use crate::reproduction::{ReproductionError, Run, Session};

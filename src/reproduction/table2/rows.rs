@@ -4,8 +4,9 @@ use super::Measured;
 use crate::config::ProblemFile;
 use crate::nlp::ipopt;
 use crate::refine::Method::{Adaptive, Global};
-use crate::report::{Build, Sheet, exact, short};
+use crate::report::{Sheet, exact, short};
 use crate::reproduction::{CASES, ReproductionError, Session};
+use crate::solution::Build;
 use serde::Serialize;
 
 /// Figures of Table II.

@@ -1,0 +1,48 @@
+//! The integral of the base rate as the only cost, after Schulz: by the same machinery as A-RPM.
+
+use super::Planner;
+use crate::nlp::Control;
+use crate::planner::{Event, Method, Plan, PlanError};
+use crate::problem::{Cost, Problem};
+use crate::refine::{self, Start};
+use crate::system::CostTerms;
+
+/// Weight of ∫‖u‖² beside that of one on ∫‖η̇‖², rad²/s³ against rad²/s.
+///
+/// The base rate alone leaves the control out of the cost, and motions that do not turn the base
+/// cost nothing at all: the problem is singular.
+pub const REGULARIZATION: f64 = 1e-3;
+
+/// Plans `problem` with the cost ∫‖η̇‖² dt instead of its own.
+///
+/// # Errors
+/// [`PlanError`]; an infeasible or unconverged problem is no error but a
+/// [`Status`](crate::planner::Status).
+pub(in crate::planner) fn plan(
+    planner: &mut Planner,
+    problem: &Problem,
+    start: Option<&Start>,
+    monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+) -> Result<Plan, PlanError> {
+    let mut own = problem.clone();
+    own.mesh.method = refine::Method::Adaptive;
+    own.cost = base_rate_alone(&problem.cost);
+    let mut plan = planner.plan_with(&own, start, monitor)?;
+    plan.method = Method::BaseRate;
+    plan.objective = CostTerms::of(problem, &plan.trajectory, &plan.discretization.mesh).total();
+    Ok(plan)
+}
+
+fn base_rate_alone(cost: &Cost) -> Cost {
+    let zero = |weights: &[f64]| vec![0.0; weights.len()];
+    Cost {
+        final_base_attitude: zero(&cost.final_base_attitude),
+        final_base_position: zero(&cost.final_base_position),
+        base_rate: vec![1.0; cost.base_rate.len()],
+        joint_rate: zero(&cost.joint_rate),
+        control: vec![REGULARIZATION; cost.control.len()],
+        torque: zero(&cost.torque),
+        duration: 0.0,
+        rate_matrix: None,
+    }
+}

@@ -1,0 +1,28 @@
+//! The saved plan: its schema, written and read, where it comes from, and what can start from it.
+//!
+//! Files hold SI units and radians with every digit of a double; docs/solution-file.md describes
+//! the format.
+
+mod build;
+mod csv;
+mod json;
+pub(crate) mod number;
+mod provenance;
+mod read;
+mod schema;
+mod warm_start;
+mod write;
+
+pub use build::Build;
+pub use csv::trajectory_csv;
+pub use json::to_json;
+pub use provenance::{ProblemSource, Provenance, TextFile};
+pub use read::{Saved, SolutionError, read_solution};
+pub use schema::{
+    Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing, Trajectory,
+    Verification,
+};
+pub use warm_start::read_warm_start;
+pub use write::solution;
+
+pub(crate) use write::{timing, verification};

@@ -1,0 +1,170 @@
+//! A plan as `solution.json` has it.
+
+use super::Provenance;
+use super::schema::*;
+use crate::dynamics::attitude::SpatialAttitude;
+use crate::ocp::Interval;
+use crate::planner::{self, Plan};
+use crate::refine::Record;
+use crate::{nlp, system, verify};
+
+/// The solution file of `plan` for the problem `name`, `checked` where it was re-integrated.
+pub fn solution(
+    name: &str,
+    plan: &Plan,
+    checked: Option<&verify::Verification>,
+    provenance: Provenance,
+) -> Solution {
+    let mesh = &plan.discretization.mesh;
+    Solution {
+        schema: 1,
+        name: name.into(),
+        status: plan.status.name().into(),
+        method: plan.method.name().into(),
+        objective: plan.objective,
+        tolerance: plan.tolerance,
+        max_error: plan.max_error,
+        points: mesh.points(),
+        segments: mesh.segments(),
+        iterations: plan.iterations.iter().map(iteration).collect(),
+        mesh: Mesh {
+            breakpoints: mesh.breakpoints().to_vec(),
+            points_per_segment: mesh.points_per_segment(),
+        },
+        trajectory: trajectory(&plan.trajectory),
+        metrics: metrics(&plan.metrics),
+        goals: plan.goals.iter().map(goal).collect(),
+        verification: checked.map(verification),
+        diagnosis: plan.diagnosis.as_ref().map(diagnosis),
+        warnings: plan.warnings.clone(),
+        timing: timing(&plan.timing),
+        provenance,
+        iterate: iterate(&plan.iterate),
+    }
+}
+
+fn iteration(record: &Record) -> Iteration {
+    Iteration {
+        points: record.points,
+        segments: record.segments,
+        max_error: record.max_error,
+        quadrature_error: record.quadrature_error,
+        max_violation: record.max_violation,
+        objective: record.objective,
+        nlp_iterations: record.nlp_iterations,
+        nlp_status: record.nlp_status.describe().into(),
+        seconds: record.time.as_secs_f64(),
+    }
+}
+
+fn trajectory(planned: &system::Trajectory) -> Trajectory {
+    let system::Trajectory {
+        t,
+        attitude,
+        base_attitude,
+        base_position,
+        base_rate,
+        joint_position,
+        joint_velocity,
+        control,
+        joint_torque,
+    } = planned.clone();
+    Trajectory {
+        t,
+        attitude: attitude.map_or("angle", SpatialAttitude::name).into(),
+        base_attitude,
+        base_position,
+        base_rate,
+        joint_position,
+        joint_velocity,
+        control,
+        joint_torque,
+    }
+}
+
+fn metrics(found: &system::Metrics) -> Metrics {
+    Metrics {
+        max_base_attitude: found.max_base_attitude,
+        final_base_attitude: found.final_base_attitude,
+        max_base_displacement: found.max_base_displacement,
+        final_base_displacement: found.final_base_displacement,
+        peak_joint_velocity: found.peak_joint_velocity,
+        peak_joint_torque: found.peak_joint_torque,
+    }
+}
+
+fn goal(found: &system::Reached) -> Goal {
+    Goal {
+        key: found.key.clone(),
+        t: found.t,
+        distance: found.distance,
+        angle: found.angle,
+    }
+}
+
+pub(crate) fn verification(found: &verify::Verification) -> Verification {
+    Verification {
+        max_base_attitude_drift: found.max_base_attitude_drift,
+        max_base_position_drift: found.max_base_position_drift,
+        max_joint_drift: found.max_joint_drift,
+        replay_base_attitude_drift: found.replay_base_attitude_drift,
+        replay_base_position_drift: found.replay_base_position_drift,
+        max_linear_momentum: found.max_linear_momentum,
+        max_angular_momentum: found.max_angular_momentum,
+        max_energy_gap: found.max_energy_gap,
+        steps: found.steps,
+    }
+}
+
+fn diagnosis(found: &planner::Diagnosis) -> Diagnosis {
+    let [starts, feasible_starts] = found.starts;
+    let limit = |limit: &planner::LimitFinding| LimitFinding {
+        key: limit.key.clone(),
+        component: limit.component.clone(),
+        bound: bounds(&limit.bound),
+        unit: limit.unit.into(),
+        excess: limit.excess,
+        smallest_bound: bounds(&limit.smallest_bound),
+    };
+    Diagnosis {
+        summary: found.summary.clone(),
+        limits: found.limits.iter().map(limit).collect(),
+        starts,
+        feasible_starts,
+    }
+}
+
+fn bounds(interval: &Interval) -> [Option<f64>; 2] {
+    [interval.lower, interval.upper].map(|bound| bound.is_finite().then_some(bound))
+}
+
+pub(crate) fn timing(spent: &planner::Timing) -> Timing {
+    Timing {
+        setup: spent.setup.as_secs_f64(),
+        derivatives: spent.derivatives.as_secs_f64(),
+        linear_solver: spent.linear_solver.as_secs_f64(),
+        ipopt_other: spent.ipopt_other.as_secs_f64(),
+        total: spent.total.as_secs_f64(),
+    }
+}
+
+/// The iterate, unless it has values that nothing can start from.
+fn iterate(last: &nlp::Iterate) -> Option<Iterate> {
+    let nlp::Iterate {
+        x,
+        multipliers,
+        lower_multipliers,
+        upper_multipliers,
+    } = last;
+    let finite = |values: &Vec<f64>| values.iter().all(|value| value.is_finite());
+    let usable = !x.is_empty()
+        && [x, multipliers, lower_multipliers, upper_multipliers]
+            .into_iter()
+            .all(finite);
+    usable.then(|| Iterate {
+        x: x.clone(),
+        multipliers: multipliers.clone(),
+        lower_multipliers: lower_multipliers.clone(),
+        upper_multipliers: upper_multipliers.clone(),
+    })
+}

@@ -1,0 +1,90 @@
+//! One task by every planner.
+
+use crate::nlp::Control;
+use crate::planner::{Event, Method, Plan, PlanError, Planner, Status};
+use crate::problem::Problem;
+use crate::refine;
+
+/// What one planner made of the task.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The planner.
+    pub method: Method,
+    /// Its plan, or why it is not made for the task.
+    pub plan: Result<Plan, String>,
+}
+
+/// One task by every planner.
+#[derive(Debug, Clone, Default)]
+pub struct Comparison {
+    /// In the order of [`Method::ALL`], A-RPM first; fewer where it was interrupted.
+    pub entries: Vec<Entry>,
+    /// What a reader should know of how the planners were asked, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Comparison {
+    /// Plans `problem` by every method, each from nothing.
+    ///
+    /// Planners that know joint goals alone get the joint positions at which A-RPM ended where the
+    /// task is a goal for the end effector. Where the monitor stops a plan, the entries until then
+    /// stay, that plan the last of them.
+    ///
+    /// # Errors
+    /// [`PlanError`] of a planner that optimises; a task that another planner is not made for is
+    /// an entry without a plan.
+    pub fn plan(
+        problem: &Problem,
+        monitor: &mut dyn FnMut(Method, &Event<'_>) -> Control,
+    ) -> Result<Self, PlanError> {
+        let mut found = Self::default();
+        let mut in_joints = problem.clone();
+        for method in Method::ALL {
+            if found.entries.len() == 1 && problem.task.end_effector.is_some() {
+                let note = in_joint_space(&mut in_joints, &found.entries[0]);
+                found.notes.extend(note);
+            }
+            let task = if method.optimises() {
+                problem
+            } else {
+                &in_joints
+            };
+            let mut told = |event: &Event<'_>| monitor(method, event);
+            let plan = match Planner::new().plan_by(method, task, None, &mut told) {
+                Ok(plan) => Ok(plan),
+                Err(PlanError::Problem(error)) if !method.optimises() => Err(error.to_string()),
+                Err(error) => return Err(error),
+            };
+            let stopped = matches!(&plan, Ok(plan) if plan.status == Status::Interrupted);
+            found.entries.push(Entry { method, plan });
+            if stopped {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The plan by one method, where there is one.
+    pub fn by(&self, method: Method) -> Option<&Plan> {
+        let entry = self.entries.iter().find(|entry| entry.method == method)?;
+        entry.plan.as_ref().ok()
+    }
+}
+
+/// Gives the planners that know joint goals alone the joint positions at which A-RPM ended; says
+/// so where that could be done.
+fn in_joint_space(problem: &mut Problem, adaptive: &Entry) -> Option<String> {
+    let plan = adaptive.plan.as_ref().ok()?;
+    if plan.status != Status::Solved {
+        return None;
+    }
+    problem.task.final_joints = plan.trajectory.joint_position.last()?.clone();
+    problem.task.free_joints.fill(false);
+    problem.task.end_effector = None;
+    Some(format!(
+        "The task is a goal for the end effector. Planners in joint space were given the joint \
+         positions at which {} ends; with another base motion they leave the end effector \
+         elsewhere.",
+        Method::Collocation(refine::Method::Adaptive).name()
+    ))
+}
