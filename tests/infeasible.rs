@@ -15,21 +15,18 @@ fn the_published_case_names_the_base_attitude_and_the_smallest_bound() {
     assert_eq!(plan.status, Status::Infeasible);
     let diagnosis = plan.diagnosis.expect("a diagnosis");
     assert!(
-        diagnosis
-            .limits
-            .iter()
-            .all(|l| l.component == "base attitude"),
+        diagnosis.limits.iter().all(|l| l.name == "base attitude"),
         "{diagnosis:?}"
     );
     let along = diagnosis
         .limits
         .iter()
-        .find(|l| l.key == "limits.base_attitude")
+        .find(|l| l.limit.key() == "limits.base_attitude")
         .unwrap();
     let end = diagnosis
         .limits
         .iter()
-        .find(|l| l.key == "limits.final_base_attitude")
+        .find(|l| l.limit.key() == "limits.final_base_attitude")
         .unwrap();
     let smallest = along
         .smallest_bound
@@ -82,7 +79,9 @@ fn a_limit_on_the_joints_is_named_too() {
     assert_eq!(plan.status, Status::Infeasible);
     let limits = plan.diagnosis.expect("a diagnosis").limits;
     assert!(
-        limits.iter().any(|l| l.key == "limits.joint_velocity"),
+        limits
+            .iter()
+            .any(|l| l.limit.key() == "limits.joint_velocity"),
         "{limits:?}"
     );
     assert!(
@@ -123,10 +122,10 @@ fn a_limit_on_the_rotation_angle_is_named_in_degrees() {
     let about = |b: &(f64, f64, f64)| b.1 + b.0 * (b.2 - center).powi(2);
     let turned = 0.05 / bodies.iter().map(about).sum::<f64>() * 20.0;
     let diagnosis = plan.diagnosis.expect("a diagnosis");
-    let keys: Vec<&str> = diagnosis.limits.iter().map(|l| l.key.as_str()).collect();
+    let keys: Vec<_> = diagnosis.limits.iter().map(|l| l.limit.key()).collect();
     assert_eq!(keys, ["limits.base_attitude", "limits.final_base_attitude"]);
     for (limit, bound) in diagnosis.limits.iter().zip([0.1, 0.05]) {
-        assert_eq!(limit.component, "base rotation angle");
+        assert_eq!(limit.name, "base rotation angle");
         assert_eq!((limit.bound.lower, limit.bound.upper), (0.0, bound));
         let gap = (limit.smallest_bound.upper - turned).abs();
         assert!(gap < 2e-3 * turned, "{limit:?}, expected {turned}");

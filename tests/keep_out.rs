@@ -173,7 +173,7 @@ fn a_goal_inside_an_obstacle_is_named() {
     assert_eq!(plan.status, Status::Infeasible, "{:?}", plan.iterations);
     let limits = plan.diagnosis.unwrap().limits;
     assert!(
-        limits.iter().any(|l| l.key == "limits.keep_out"),
+        limits.iter().any(|l| l.limit.key() == "limits.keep_out"),
         "{limits:?}"
     );
 }

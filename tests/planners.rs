@@ -7,8 +7,8 @@ use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Method, Plan, PlanError, Planner, Status};
-use ffsm_ipopt::problem::Problem;
-use ffsm_ipopt::system::{CostTerms, straight_line};
+use ffsm_ipopt::problem::{CostId, Problem};
+use ffsm_ipopt::system::{Side, cost_terms, straight_line};
 use ffsm_ipopt::verify::verify;
 
 fn plan(method: Method, problem: &Problem) -> Plan {
@@ -102,10 +102,7 @@ fn matpm_says_which_joint_is_too_slow() {
             .summary
             .contains("joint 'joint2' cannot be there in 20 s")
     );
-    let elbow = diagnosis
-        .limits
-        .iter()
-        .find(|l| l.component == "joint 2 rate");
+    let elbow = diagnosis.limits.iter().find(|l| l.name == "joint 2 rate");
     let needed = problem.task.final_joints[1] / 20.0;
     assert!((elbow.unwrap().smallest_bound.upper - needed).abs() < 1e-12);
 }
@@ -117,7 +114,7 @@ fn limits_a_planner_knows_nothing_of_are_still_held_against_it() {
         let plan = plan(method, &problem);
         assert_eq!(plan.status, Status::Infeasible, "{}", method.name());
         let found = plan.diagnosis.unwrap();
-        let keys: Vec<&str> = found.limits.iter().map(|l| l.key.as_str()).collect();
+        let keys: Vec<_> = found.limits.iter().map(|l| l.limit.key()).collect();
         assert!(keys.contains(&"limits.base_attitude"), "{keys:?}");
         assert!(found.summary.contains(method.name()), "{}", found.summary);
     }
@@ -191,7 +188,7 @@ fn reaction_null_space_holds_the_base_on_a_redundant_arm() {
             diagnosis
                 .limits
                 .iter()
-                .any(|l| l.key == "task.final.joints")
+                .any(|l| l.limit.key() == "task.final.joints")
         );
     }
 }
@@ -296,7 +293,7 @@ fn base_rate_moves_the_base_less_than_any_other() {
         let plan = plan(method, &problem);
         let mut unit = problem.clone();
         unit.cost.base_rate = vec![1.0];
-        CostTerms::of(&unit, &plan.trajectory, &plan.discretization.mesh).base_rate
+        cost_terms(&unit, &plan.discretization).of(CostId::BaseRate)
     };
     let least = motion(Method::BaseRate);
     for method in Method::ALL
@@ -322,13 +319,15 @@ fn cost_terms_add_up_to_the_objective() {
         vec![0.0, 0.0, 0.1],
     ]);
     let plan = ffsm_ipopt::planner::plan(&problem).unwrap();
-    let terms = CostTerms::of(&problem, &plan.trajectory, &plan.discretization.mesh);
+    let terms = cost_terms(&problem, &plan.discretization);
     assert!(
         (terms.total() - plan.objective).abs() < 1e-12,
         "{terms:?} {}",
         plan.objective
     );
-    assert!(terms.rate_matrix.iter().all(|block| *block != 0.0));
+    let blocks = terms.terms.iter().filter(|t| t.id == CostId::RateMatrix);
+    let sides: Vec<Side> = blocks.filter(|t| t.value != 0.0).map(|t| t.side).collect();
+    assert_eq!(sides, [Side::Base, Side::Joints, Side::Both]);
 }
 
 #[test]
@@ -378,7 +377,7 @@ fn a_motion_is_the_same_however_the_base_attitude_is_described() {
         }
         // One rotation angle is at least the largest of three.
         assert!(b.metrics.final_base_attitude >= a.metrics.final_base_attitude - 1e-9);
-        let terms = CostTerms::of(&by_quaternion, &b.trajectory, &b.discretization.mesh);
+        let terms = cost_terms(&by_quaternion, &b.discretization);
         let square = b.metrics.final_base_attitude.powi(2);
         assert!(
             (terms.final_base_attitude - square).abs() < 1e-12,

@@ -104,7 +104,9 @@ fn a_point_out_of_reach_is_named() {
     assert_eq!(plan.status, Status::Infeasible);
     let limits = plan.diagnosis.unwrap().limits;
     assert!(
-        limits.iter().any(|l| l.key == "task.final.end_effector"),
+        limits
+            .iter()
+            .any(|l| l.limit.key() == "task.final.end_effector"),
         "{limits:?}"
     );
 }
@@ -434,8 +436,10 @@ fn a_way_point_that_cannot_be_reached_in_time_is_named() {
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Infeasible);
     let limits = plan.diagnosis.unwrap().limits;
-    let named = limits.iter().find(|l| l.key == "task.way_points[0]");
+    let named = limits
+        .iter()
+        .find(|l| l.limit.key() == "task.way_points[0]");
     let named = named.unwrap_or_else(|| panic!("{limits:?}"));
-    assert_eq!(named.unit, "rad");
-    assert!(named.component.starts_with("joint 1 position"), "{named:?}");
+    assert_eq!(named.unit.symbol(), "rad");
+    assert!(named.name.starts_with("joint 1 position"), "{named:?}");
 }

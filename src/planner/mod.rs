@@ -7,10 +7,11 @@ mod event;
 mod joint_space;
 mod method;
 mod plan;
+mod words;
 
 pub use crate::refine::Start;
 pub use collocation::{BASE_RATE_REGULARIZATION, Planner, plan};
 pub use error::PlanError;
 pub use event::Event;
 pub use method::Method;
-pub use plan::{Diagnosis, LimitFinding, Plan, Status, Timing};
+pub use plan::{Diagnosis, LimitFinding, Plan, Starts, Status, Timing};

@@ -3,8 +3,9 @@
 use super::Method;
 use crate::nlp;
 use crate::ocp::Interval;
+use crate::problem::{LimitId, Unit};
 use crate::refine::Record;
-use crate::system::{Metrics, Reached, Trajectory};
+use crate::system::{Component, Metrics, Reached, Trajectory};
 use crate::transcription::Discretization;
 use std::time::Duration;
 
@@ -36,18 +37,29 @@ impl Status {
 /// One limit that cannot hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LimitFinding {
-    /// Key in the problem file ("limits.base_attitude").
-    pub key: String,
-    /// The bound as given, in the unit of the limit.
+    /// The limit.
+    pub limit: LimitId,
+    /// Which component of it.
+    pub component: Component,
+    /// What a person calls that component ("base attitude", "base pitch", "joint 2 rate").
+    pub name: String,
+    /// Unit of the bounds.
+    pub unit: Unit,
+    /// The bound as given.
     pub bound: Interval,
-    /// The component it is about ("base attitude", "base pitch", "joint 2 rate").
-    pub component: String,
-    /// Unit of the bounds: "rad", "m/s", "N·m" …
-    pub unit: &'static str,
     /// How much the bound must give way at least, same unit.
     pub excess: f64,
     /// The smallest bound that was found to work, all other limits kept.
     pub smallest_bound: Interval,
+}
+
+/// How many starts a search was begun from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Starts {
+    /// All of them.
+    pub tried: usize,
+    /// Those that ended at a trajectory within the limits, or within the relaxed ones.
+    pub feasible: usize,
 }
 
 /// Why a problem is infeasible.
@@ -55,8 +67,8 @@ pub struct LimitFinding {
 pub struct Diagnosis {
     /// The limits that cannot hold, those relaxed together.
     pub limits: Vec<LimitFinding>,
-    /// Starts tried and how many of them ended at a feasible relaxation.
-    pub starts: [usize; 2],
+    /// The starts that were tried.
+    pub starts: Starts,
     /// One sentence for a person, in degrees and centimetres.
     pub summary: String,
 }

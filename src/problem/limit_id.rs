@@ -49,6 +49,14 @@ impl LimitId {
         })
     }
 
+    /// The limit that it belongs to: that along the path, for the same limit at t_f.
+    pub fn along_the_path(self) -> Self {
+        match self {
+            Self::FinalBaseAttitude => Self::BaseAttitude,
+            other => other,
+        }
+    }
+
     /// Whether it limits the motion of the base: a requirement of the mission, where limits of the
     /// joints are properties of the hardware.
     pub fn is_on_base(self) -> bool {

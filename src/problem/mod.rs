@@ -1,5 +1,6 @@
 //! A planning problem: robot, task, limits, cost and mesh, eq. (7) to (18).
 
+mod cost_id;
 mod goal;
 mod keep_out;
 mod limit_id;
@@ -8,6 +9,7 @@ mod unit;
 mod validation;
 mod way_point;
 
+pub use cost_id::CostId;
 pub use goal::{EndEffectorGoal, GoalFrame};
 pub use keep_out::{KeepOut, Obstacle, Sphere};
 pub use limit_id::LimitId;

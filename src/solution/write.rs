@@ -117,20 +117,20 @@ pub(crate) fn verification(found: &verify::Verification) -> Verification {
 }
 
 fn diagnosis(found: &planner::Diagnosis) -> Diagnosis {
-    let [starts, feasible_starts] = found.starts;
+    let planner::Starts { tried, feasible } = found.starts;
     let limit = |limit: &planner::LimitFinding| LimitFinding {
-        key: limit.key.clone(),
-        component: limit.component.clone(),
+        key: limit.limit.key().into_owned(),
+        component: limit.name.clone(),
         bound: bounds(&limit.bound),
-        unit: limit.unit.into(),
+        unit: limit.unit.symbol().into(),
         excess: limit.excess,
         smallest_bound: bounds(&limit.smallest_bound),
     };
     Diagnosis {
         summary: found.summary.clone(),
         limits: found.limits.iter().map(limit).collect(),
-        starts,
-        feasible_starts,
+        starts: tried,
+        feasible_starts: feasible,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::nlp::Control;
 use crate::planner::{Event, Plan, PlanError, Planner, Status};
 use crate::problem::Problem;
 use crate::refine::Start;
-use crate::system::CostTerms;
+use crate::system::cost_terms;
 
 /// One point of the front.
 #[derive(Debug, Clone)]
@@ -123,7 +123,7 @@ impl<'a> Front<'a> {
             .plan_with(&problem, start.as_ref(), &mut |event| {
                 monitor(factor, event)
             })?;
-        let terms = CostTerms::of(self.problem, &plan.trajectory, &plan.discretization.mesh);
+        let terms = cost_terms(self.problem, &plan.discretization);
         Ok(FrontPoint {
             factor,
             base: terms.base(),

@@ -2,9 +2,14 @@
 //!
 //! The states enter in three ways, each differentiated by what suits it: the joints through the
 //! recursions ([`Sensitivity`]), the attitude η and the base's angular velocity ω₀ through a few
-//! elementary functions (dual numbers), the controls linearly.
+//! elementary functions (dual numbers), the controls linearly. Rows and cost terms add their own
+//! derivatives from these.
 
-use super::FreeFloating;
+use super::cost::PathTerm;
+use super::free_floating::FreeFloating;
+use super::functions::torques;
+use super::linearization::{Adjoint, Linearization, Lower};
+use super::rows::PathRows;
 use crate::autodiff::{Dual, HyperDual, Scalar, has_fused};
 use crate::dynamics::Sensitivity;
 use crate::dynamics::attitude::Attitude;
@@ -30,15 +35,12 @@ struct NodeDerivatives<'a, Sp: Space, const N: usize, const FUSED: bool> {
     motion: Sensitivity<Sp, N, FUSED>,
     /// Input behind each direction of `motion`.
     inputs: Vec<usize>,
-    /// Second derivatives of the running cost by [base rates, θ̇]: (row, column, value), both
-    /// triangles.
-    rate_cost: Vec<(usize, usize, f64)>,
-    /// [base rates, θ̇] and their derivatives of the cost.
+    /// Rates of the base that limits and costs are about, then θ̇.
     rates: Vec<f64>,
-    rate_slope: Vec<f64>,
     /// Derivatives of ω₀ by η, one parameter after the other, where the system tumbles.
-    turned: Vec<f64>,
-    /// What η and ω₀ alone determine, with its derivatives by both.
+    tumbled: Vec<f64>,
+    /// What η and ω₀ alone determine: η̇, the base's rates, φ² where needed; with its derivatives
+    /// by both.
     base_first: Vec<Dual<BASE>>,
     base_second: Vec<HyperDual<PARAMETERS, BASE>>,
     /// The same by all of η, θ, θ̇, by rows as wide as those.
@@ -52,24 +54,38 @@ struct NodeDerivatives<'a, Sp: Space, const N: usize, const FUSED: bool> {
     torque_second: Vec<f64>,
 }
 
+/// η̇, the rates that limits and costs are about, and φ² where a row needs it, from η and ω₀.
+fn base_outputs<Sp: Space, S: Scalar>(
+    system: &FreeFloating<Sp>,
+    eta: &[S],
+    omega: &Sp::Angular<S>,
+    out: &mut [S],
+) {
+    let attitude = system.plant.attitude;
+    let (rates, rest) = out.split_at_mut(attitude.count());
+    let (limited, rotation) = rest.split_at_mut(Sp::ANGLES);
+    attitude.rates(eta, omega, rates);
+    limited.copy_from_slice(system.plant.limited_rates(rates, omega));
+    if let [squared] = rotation {
+        *squared = attitude.squared_turn(eta);
+    }
+}
+
 impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N, FUSED> {
     fn new(system: &'a FreeFloating<Sp>) -> Self {
-        let n = system.joint_count();
-        let parameters = system.attitude.count();
-        let tumbles = system.drift.angular().is_some();
+        let plant = &system.plant;
+        let (n, parameters, states) = (plant.joints(), plant.parameters(), plant.states());
+        let tumbles = plant.drift.angular().is_some();
         let others = if tumbles { parameters } else { 0 };
-        let outputs = system.base_output_count();
-        let rates = Sp::ANGLES + n;
+        let outputs = parameters + Sp::ANGLES + usize::from(system.needs.rotation);
         Self {
-            motion: Sensitivity::new(system.tree(), others),
-            inputs: (parameters..parameters + 2 * n).chain(0..others).collect(),
-            rate_cost: rate_cost(system),
-            rates: vec![0.0; rates],
-            rate_slope: vec![0.0; rates],
-            turned: vec![0.0; others * Sp::ANGLES],
+            motion: Sensitivity::new(&plant.tree, others),
+            inputs: (parameters..states).chain(0..others).collect(),
+            rates: vec![0.0; Sp::ANGLES + n],
+            tumbled: vec![0.0; others * Sp::ANGLES],
             base_first: vec![Dual::constant(0.0); outputs],
             base_second: vec![HyperDual::constant(0.0); outputs],
-            base_by: vec![0.0; outputs * (parameters + 2 * n)],
+            base_by: vec![0.0; outputs * states],
             base_weights: vec![0.0; outputs],
             torque: vec![0.0; n],
             torque_weights: vec![0.0; n],
@@ -81,51 +97,43 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
     }
 
     fn parameters(&self) -> usize {
-        self.system.attitude.count()
+        self.system.plant.parameters()
     }
 
     /// States: η, θ, θ̇.
     fn states(&self) -> usize {
-        self.parameters() + 2 * self.system.joint_count()
+        self.system.plant.states()
     }
 
-    /// Input that joint rate `j` is.
-    fn rate_input(&self, j: usize) -> usize {
-        self.parameters() + self.system.joint_count() + j
-    }
-
-    fn torques_wanted(&self) -> bool {
-        self.system.torque_rows || self.system.torque_cost
-    }
-
-    /// Free motion with its first derivatives.
+    /// Free motion with its first derivatives, torques with theirs.
     fn load(&mut self, point: &Point<'_, f64>) {
         let system = self.system;
-        let n = system.joint_count();
-        let (eta, joints) = point.x.split_at(self.parameters());
-        let (theta, dtheta) = joints.split_at(n);
-        self.motion.load(system.tree(), theta, dtheta, |data| {
-            system.drift.tumble(system.attitude, eta, data);
+        let plant = &system.plant;
+        let (eta, joints) = point.x.split_at(plant.parameters());
+        let (theta, dtheta) = joints.split_at(plant.joints());
+        self.motion.load(&plant.tree, theta, dtheta, |data| {
+            plant.drift.tumble(plant.attitude, eta, data);
         });
-        if let Some(angular) = system.drift.angular() {
+        if let Some(angular) = plant.drift.angular() {
             let seeded: [Dual<PARAMETERS>; PARAMETERS] = seeded(eta, Dual::seeded);
-            let seen = system.attitude.to_base(&seeded[..eta.len()], angular);
-            for (i, turned) in self.turned.chunks_exact_mut(Sp::ANGLES).enumerate() {
+            let seen = plant.attitude.to_base(&seeded[..eta.len()], angular);
+            for (i, tumbled) in self.tumbled.chunks_exact_mut(Sp::ANGLES).enumerate() {
                 let mut by = [0.0; 3];
                 for (by, c) in by.iter_mut().zip(seen.components()) {
                     *by = c.gradient[i];
                 }
                 let by = Sp::Angular::from_components(&by[..Sp::ANGLES]);
                 let by = Sp::apply(&self.motion.data().inverse_inertia, &by);
-                turned.copy_from_slice(by.components());
+                tumbled.copy_from_slice(by.components());
             }
         }
-        self.motion.first(&self.turned);
-        if self.torques_wanted() {
+        self.motion.first(&self.tumbled);
+        if system.needs.torque {
             let data = self.motion.data();
-            super::torques(&data.mass_matrix, point.u, &mut self.torque);
+            torques(&data.mass_matrix, point.u, &mut self.torque);
             self.motion.torque_by(point.u, &mut self.torque_by);
         }
+        self.rates[Sp::ANGLES..].copy_from_slice(dtheta);
     }
 
     /// Row `row` of `base_by` from its derivatives by η and ω₀, and the values of the rates.
@@ -144,60 +152,53 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         }
     }
 
-    /// Derivatives of the running cost by [base rates, θ̇]; after [`Self::spread_base`].
-    fn slope(&mut self, point: &Point<'_, f64>) {
-        let n = self.system.joint_count();
-        let dtheta = &point.x[self.parameters() + n..];
-        self.rates[Sp::ANGLES..].copy_from_slice(dtheta);
-        self.rate_slope.fill(0.0);
-        for &(i, j, second) in &self.rate_cost {
-            self.rate_slope[i] += second * self.rates[j];
+    /// First derivatives of all that rows and cost terms are functions of, but the attitude's own
+    /// rates.
+    fn linearization<'s>(&'s self, point: Point<'s, f64>) -> Linearization<'s, Sp> {
+        Linearization {
+            plant: &self.system.plant,
+            point,
+            data: self.motion.data(),
+            rates: &self.rates,
+            torque: &self.torque,
+            base_by: &self.base_by[self.parameters() * self.states()..],
+            torque_by: &self.torque_by,
         }
     }
 
-    /// Adds to the lower triangle the second derivatives of the cost on rates.
-    fn add_rate_cost(&self, weight: f64, width: usize, hessian: &mut [f64]) {
-        let states = self.states();
-        let base = |i: usize| {
-            let row = self.parameters() + i;
-            &self.base_by[row * states..(row + 1) * states]
+    /// Weights on the base's outputs and on the torques, from those on the rates of the states, on
+    /// the path rows and on the running cost.
+    fn weigh(&mut self, point: Point<'_, f64>, weights: &[f64]) {
+        let (parameters, states) = (self.parameters(), self.states());
+        let mut base = std::mem::take(&mut self.base_weights);
+        let mut torque = std::mem::take(&mut self.torque_weights);
+        let (own, rest) = base.split_at_mut(parameters);
+        own.copy_from_slice(&weights[..parameters]);
+        rest.fill(0.0);
+        torque.fill(0.0);
+        let (base_rate, squared_rotation) = rest.split_at_mut(Sp::ANGLES);
+        let mut adjoint = Adjoint {
+            base_rate,
+            squared_rotation,
+            torque: &mut torque,
         };
-        for &(i, j, second) in &self.rate_cost {
-            let second = weight * second;
-            match (i.checked_sub(Sp::ANGLES), j.checked_sub(Sp::ANGLES)) {
-                (Some(i), Some(j)) => {
-                    if j <= i {
-                        hessian[self.rate_input(i) * width + self.rate_input(j)] += second;
-                    }
-                }
-                (None, None) => {
-                    let (left, right) = (base(i), base(j));
-                    for (row, a) in left.iter().enumerate() {
-                        let to = &mut hessian[row * width..=row * width + row];
-                        for (to, b) in to.iter_mut().zip(right) {
-                            *to += second * a * b;
-                        }
-                    }
-                }
-                // The pair comes twice, as (i, j) and as (j, i): each gives one triangle.
-                (None, Some(j)) => {
-                    let column = self.rate_input(j);
-                    for (row, a) in base(i).iter().enumerate().skip(column) {
-                        hessian[row * width + column] += second * a;
-                    }
-                }
-                (Some(i), None) => {
-                    let row = self.rate_input(i);
-                    for (column, b) in base(j).iter().enumerate().take(row + 1) {
-                        hessian[row * width + column] += second * b;
-                    }
-                }
-            }
+        let at = self.linearization(point);
+        let (rows, cost) = weights[states..].split_at(weights.len() - states - 1);
+        let mut rest = rows;
+        for block in &self.system.path {
+            let (own, others) = rest.split_at(block.rows().len());
+            block.weigh(own, &mut adjoint);
+            rest = others;
         }
+        for term in &self.system.path_cost {
+            term.weigh(&at, cost[0], &mut adjoint);
+        }
+        self.base_weights = base;
+        self.torque_weights = torque;
     }
 
     /// Adds what bends with η: η and ω₀ in the base's outputs, and RᵀL where the system tumbles.
-    fn add_attitude(&self, eta: &[f64], width: usize, hessian: &mut [f64]) {
+    fn add_attitude(&self, eta: &[f64], hessian: &mut Lower<'_>) {
         let parameters = self.parameters();
         let mut bent = [[0.0; BASE]; PARAMETERS];
         for (output, weight) in self.base_second.iter().zip(&self.base_weights) {
@@ -207,10 +208,11 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
                 }
             }
         }
-        if let Some(angular) = self.system.drift.angular() {
+        let plant = &self.system.plant;
+        if let Some(angular) = plant.drift.angular() {
             let seeded: [HyperDual<PARAMETERS, PARAMETERS>; PARAMETERS] =
                 seeded(eta, |value, i| HyperDual::seeded(value, Some(i), Some(i)));
-            let seen = self.system.attitude.to_base(&seeded[..parameters], angular);
+            let seen = plant.attitude.to_base(&seeded[..parameters], angular);
             for (c, weight) in seen.components().iter().zip(self.motion.momentum_weight()) {
                 for (sums, row) in bent.iter_mut().zip(&c.block) {
                     for (sum, second) in sums.iter_mut().zip(row) {
@@ -221,23 +223,21 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         }
         for (row, bent) in bent.iter().enumerate().take(parameters) {
             for (column, second) in bent.iter().enumerate().take(row + 1) {
-                hessian[row * width + column] += second;
+                hessian.add(row, column, *second);
             }
-            let by_spin = &bent[parameters..parameters + Sp::ANGLES];
+            let by_rate = &bent[parameters..parameters + Sp::ANGLES];
             for (direction, &input) in self.inputs.iter().enumerate() {
                 let mut second = 0.0;
-                for (i, by) in by_spin.iter().enumerate() {
+                for (i, by) in by_rate.iter().enumerate() {
                     second += by * self.motion.base_rate_by(i, direction);
                 }
-                // On the diagonal both triangles meet.
-                let twice = if input == row { 2.0 } else { 1.0 };
-                hessian[row.max(input) * width + row.min(input)] += twice * second;
+                hessian.add_pair(row, input, second);
             }
         }
     }
 
-    /// Adds what bends in the torques: their weighted sum, and their squares in the cost.
-    fn add_torques(&mut self, u: &[f64], cost: f64, width: usize, hessian: &mut [f64]) {
+    /// Adds what bends in the weighted sum of the torques.
+    fn add_torques(&mut self, u: &[f64], hessian: &mut Lower<'_>) {
         let n = self.system.joint_count();
         let (first, controls) = (self.parameters(), self.states());
         self.motion.torque_curvature(
@@ -246,25 +246,12 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             &mut self.torque_weighted_by,
             &mut self.torque_second,
         );
-        let mass = &self.motion.data().mass_matrix;
-        let mass = |i: usize, j: usize| mass[i.max(j) * n + i.min(j)];
-        let squares = self.system.cost.torque.iter().map(|w| 2.0 * cost * w);
         for k in 0..n {
             for l in 0..n {
-                let mut both = [0.0; 3];
-                for (r, square) in squares.clone().enumerate() {
-                    let (by_k, by_l) = (self.torque_by[r * n + k], self.torque_by[r * n + l]);
-                    both[0] += square * by_k * by_l;
-                    both[1] += square * mass(r, k) * by_l;
-                    both[2] += square * mass(r, k) * mass(r, l);
-                }
                 if l <= k {
-                    hessian[(first + k) * width + first + l] +=
-                        self.torque_second[k * n + l] + both[0];
-                    hessian[(controls + k) * width + controls + l] += both[2];
+                    hessian.add(first + k, first + l, self.torque_second[k * n + l]);
                 }
-                hessian[(controls + k) * width + first + l] +=
-                    self.torque_weighted_by[k * n + l] + both[1];
+                hessian.add(controls + k, first + l, self.torque_weighted_by[k * n + l]);
             }
         }
     }
@@ -279,27 +266,6 @@ fn seeded<S: Scalar, const P: usize>(values: &[f64], seed: impl Fn(f64, usize) -
     seeded
 }
 
-/// Second derivatives of the running cost by [base rates, θ̇].
-fn rate_cost<Sp: Space>(system: &FreeFloating<Sp>) -> Vec<(usize, usize, f64)> {
-    let cost = &system.cost;
-    let count = Sp::ANGLES + system.joint_count();
-    let mut second = vec![vec![0.0; count]; count];
-    let own = cost.base_rate.iter().chain(&cost.joint_rate);
-    for (i, weight) in own.enumerate() {
-        second[i][i] += 2.0 * weight;
-    }
-    for (i, row) in cost.rate_matrix.iter().flatten().enumerate() {
-        for (j, weight) in row.iter().enumerate() {
-            second[i][j] += weight;
-            second[j][i] += weight;
-        }
-    }
-    let all = second.iter().enumerate();
-    all.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, &value)| (i, j, value)))
-        .filter(|&(.., value)| value != 0.0)
-        .collect()
-}
-
 impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
     for NodeDerivatives<'_, Sp, N, FUSED>
 {
@@ -308,83 +274,47 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
         let system = self.system;
         let n = system.joint_count();
         let (parameters, states) = (self.parameters(), self.states());
-        let eta = &point.x[..parameters];
         let omega = self.motion.data().base_rate;
-        let eta: [Dual<BASE>; PARAMETERS] = seeded(eta, Dual::seeded);
+        let eta: [Dual<BASE>; PARAMETERS] = seeded(&point.x[..parameters], Dual::seeded);
         let spin: [Dual<BASE>; 3] = seeded(omega.components(), |value, i| {
             Dual::seeded(value, parameters + i)
         });
         let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
-        system.base_outputs(&eta[..parameters], &spin, &mut self.base_first);
+        base_outputs(system, &eta[..parameters], &spin, &mut self.base_first);
         for row in 0..self.base_first.len() {
             let output = self.base_first[row];
             self.spread_base(row, output.value, &output.gradient);
         }
-        self.slope(&point);
 
         jacobian.fill(0.0);
-        let width = states + n + 1;
-        let mut rows = jacobian.chunks_exact_mut(width);
-        let mut next = || rows.next().expect("a row for each output");
-        let base_row = |row: usize| &self.base_by[row * states..(row + 1) * states];
-        for i in 0..parameters {
-            next()[..states].copy_from_slice(base_row(i));
+        let at = self.linearization(point);
+        let width = at.width();
+        let (dynamics, rest) = jacobian.split_at_mut(states * width);
+        let mut rows = dynamics.chunks_exact_mut(width);
+        for (row, by) in rows
+            .by_ref()
+            .zip(self.base_by.chunks_exact(states))
+            .take(parameters)
+        {
+            row[..states].copy_from_slice(by);
         }
-        for j in 0..n {
-            next()[self.rate_input(j)] = 1.0;
+        for (j, row) in rows.by_ref().take(n).enumerate() {
+            row[at.rate(j)] = 1.0;
         }
-        for j in 0..n {
-            let row = next();
+        for (j, row) in rows.enumerate() {
             for (direction, &input) in self.inputs.iter().enumerate() {
                 row[input] = self.motion.acceleration_by(j, direction);
             }
-            row[states + j] = 1.0;
+            row[at.control(j)] = 1.0;
         }
-        if system.rate_rows {
-            for i in 0..Sp::ANGLES {
-                next()[..states].copy_from_slice(base_row(parameters + i));
-            }
+        let mut rest = rest;
+        for block in &system.path {
+            let (own, others) = rest.split_at_mut(block.rows().len() * width);
+            block.gradient(&at, own);
+            rest = others;
         }
-        let data = self.motion.data();
-        let mass = |i: usize, j: usize| data.mass_matrix[i.max(j) * n + i.min(j)];
-        if system.torque_rows {
-            for j in 0..n {
-                let row = next();
-                row[parameters..parameters + n]
-                    .copy_from_slice(&self.torque_by[j * n..(j + 1) * n]);
-                for k in 0..n {
-                    row[states + k] = mass(j, k);
-                }
-            }
-        }
-        for extra in parameters + Sp::ANGLES..self.base_first.len() {
-            next()[..states].copy_from_slice(base_row(extra));
-        }
-        for pair in &system.keep_out {
-            pair.gradient(system.tree(), data, &mut next()[parameters..parameters + n]);
-        }
-        let row = next();
-        for (i, slope) in self.rate_slope.iter().enumerate() {
-            match i.checked_sub(Sp::ANGLES) {
-                Some(j) => row[self.rate_input(j)] += slope,
-                None => {
-                    for (to, by) in row.iter_mut().zip(base_row(parameters + i)) {
-                        *to += slope * by;
-                    }
-                }
-            }
-        }
-        for (j, weight) in system.cost.control.iter().enumerate() {
-            row[states + j] += 2.0 * weight * point.u[j];
-        }
-        if system.torque_cost {
-            for (j, weight) in system.cost.torque.iter().enumerate() {
-                let slope = 2.0 * weight * self.torque[j];
-                for k in 0..n {
-                    row[parameters + k] += slope * self.torque_by[j * n + k];
-                    row[states + k] += slope * mass(j, k);
-                }
-            }
+        for term in &system.path_cost {
+            term.gradient(&at, rest);
         }
     }
 
@@ -402,63 +332,42 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
             HyperDual::seeded(value, None, Some(parameters + i))
         });
         let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
-        system.base_outputs(&eta[..parameters], &spin, &mut self.base_second);
+        base_outputs(system, &eta[..parameters], &spin, &mut self.base_second);
         for row in 0..self.base_second.len() {
             let (value, by) = (self.base_second[row].value, self.base_second[row].columns);
             self.spread_base(row, value, &by);
         }
-        self.slope(&point);
-
-        let (rates, rest) = weights.split_at(parameters);
-        let (accelerations, rest) = rest[n..].split_at(n);
-        let (spin_rows, rest) = rest.split_at(if system.rate_rows { Sp::ANGLES } else { 0 });
-        let (torque_rows, rest) = rest.split_at(if system.torque_rows { n } else { 0 });
-        let extra = self.base_weights.len() - parameters - Sp::ANGLES;
-        let (extra_rows, rest) = rest.split_at(extra);
-        let (pairs, cost) = rest.split_at(system.keep_out.len());
-        let cost = cost[0];
-        self.base_weights[..parameters].copy_from_slice(rates);
-        let (own, extra) = self.base_weights[parameters..].split_at_mut(Sp::ANGLES);
-        extra.copy_from_slice(extra_rows);
-        for (to, slope) in own.iter_mut().zip(&self.rate_slope) {
-            *to = cost * slope;
-        }
-        for (to, weight) in own.iter_mut().zip(spin_rows) {
-            *to += weight;
-        }
-        let mut turning = [0.0; 3];
+        self.weigh(point, weights);
+        let mut by_omega = [0.0; 3];
         for (output, weight) in self.base_second.iter().zip(&self.base_weights) {
-            for (sum, by) in turning.iter_mut().zip(&output.columns[parameters..]) {
+            for (sum, by) in by_omega.iter_mut().zip(&output.columns[parameters..]) {
                 *sum += weight * by;
             }
         }
-        self.motion.second(accelerations, &turning[..Sp::ANGLES]);
+        let accelerations = &weights[parameters + n..states];
+        self.motion.second(accelerations, &by_omega[..Sp::ANGLES]);
 
-        let width = states + n + 1;
         hessian.fill(0.0);
+        let mut hessian = Lower::new(hessian, states + n + 1);
         for (row, &i) in self.inputs.iter().enumerate() {
             for (column, &j) in self.inputs[..=row].iter().enumerate() {
-                hessian[i.max(j) * width + i.min(j)] = self.motion.second_by(row, column);
+                hessian.add(i.max(j), i.min(j), self.motion.second_by(row, column));
             }
         }
-        self.add_attitude(&point.x[..parameters], width, hessian);
-        self.add_rate_cost(cost, width, hessian);
-        for (j, weight) in system.cost.control.iter().enumerate() {
-            hessian[(states + j) * width + states + j] += 2.0 * cost * weight;
+        self.add_attitude(&point.x[..parameters], &mut hessian);
+        if system.needs.torque {
+            self.add_torques(point.u, &mut hessian);
         }
-        if self.torques_wanted() {
-            let rows = torque_rows.iter().chain(std::iter::repeat(&0.0));
-            let own = system.cost.torque.iter().zip(&self.torque).zip(rows);
-            for (to, ((own, torque), row)) in self.torque_weights.iter_mut().zip(own) {
-                *to = row + 2.0 * cost * own * torque;
-            }
-            self.add_torques(point.u, cost, width, hessian);
+        let at = self.linearization(point);
+        let (rows, cost) = weights[states..].split_at(weights.len() - states - 1);
+        let mut rest = rows;
+        for block in &system.path {
+            let (own, others) = rest.split_at(block.rows().len());
+            block.curvature(&at, own, &mut hessian);
+            rest = others;
         }
-        for (pair, &weight) in system.keep_out.iter().zip(pairs) {
-            let data = self.motion.data();
-            pair.curvature(system.tree(), data, |k, l, second| {
-                hessian[(parameters + k) * width + parameters + l] += weight * second;
-            });
+        for term in &system.path_cost {
+            term.curvature(&at, cost[0], &mut hessian);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! How near the end effector came to its goals.
 
-use super::FreeFloating;
-use super::rows::GoalRows;
+use super::dispatch::{System, with_system};
+use super::free_floating::FreeFloating;
+use super::rows::EndEffectorRows;
 use crate::dynamics::space::Space;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
@@ -21,16 +22,13 @@ pub struct Reached {
 
 /// Every goal of `problem` for the end effector, in the order of time, as `plan` meets it.
 pub fn reached(problem: &Problem, plan: &Discretization) -> Vec<Reached> {
-    match FreeFloating::planar(problem) {
-        Some(planar) => gaps(&planar, plan),
-        None => gaps(&FreeFloating::spatial(problem), plan),
-    }
+    with_system!(&System::new(problem), system => gaps(system, plan))
 }
 
 pub(crate) fn gaps<Sp: Space>(system: &FreeFloating<Sp>, plan: &Discretization) -> Vec<Reached> {
     let mut x = vec![0.0; plan.states];
     let mut u = vec![0.0; plan.controls];
-    let mut gap = |key: String, goal: &GoalRows<Sp>, fraction: f64| {
+    let mut gap = |key: String, goal: &EndEffectorRows<Sp>, fraction: f64| {
         plan.at_fraction(fraction, &mut x, &mut u);
         let t = fraction * plan.duration;
         let rows = system.goal_values(goal, &x, t);

@@ -1,6 +1,6 @@
 //! Starting trajectories: joints through way-points, the base following by momentum.
 
-use super::FreeFloating;
+use super::free_floating::FreeFloating;
 use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;

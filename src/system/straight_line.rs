@@ -1,6 +1,9 @@
 //! Base motion when the joints move along the straight line from start to goal.
 
-use super::{FreeFloating, Trajectory, quintic};
+use super::dispatch::{System, with_system};
+use super::free_floating::FreeFloating;
+use super::motion::Trajectory;
+use super::quintic::quintic;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
@@ -20,10 +23,7 @@ pub struct StraightLine {
 /// Base motion along the straight joint path of `problem`'s task.
 pub fn straight_line(problem: &Problem) -> StraightLine {
     let parts: Vec<f64> = (0..=STEPS).map(|k| k as f64 / STEPS as f64).collect();
-    let path = match FreeFloating::planar(problem) {
-        Some(planar) => integrate(problem, &planar, &parts),
-        None => integrate(problem, &FreeFloating::spatial(problem), &parts),
-    };
+    let path = with_system!(&System::new(problem), system => integrate(problem, system, &parts));
     let ends = |rows: &[Vec<f64>]| [rows[0].clone(), rows[STEPS].clone()];
     let [start, end] = ends(&path.base_position);
     let [_, base_attitude] = ends(&path.base_attitude);
@@ -40,10 +40,7 @@ pub fn straight_motion(problem: &Problem, duration: f64, steps: usize) -> Trajec
     let times = (0..=steps).map(|k| duration * k as f64 / steps.max(1) as f64);
     let t: Vec<f64> = times.collect();
     let parts: Vec<f64> = t.iter().map(|&t| quintic(t, duration)[0]).collect();
-    let path = match FreeFloating::planar(problem) {
-        Some(planar) => integrate(problem, &planar, &parts),
-        None => integrate(problem, &FreeFloating::spatial(problem), &parts),
-    };
+    let path = with_system!(&System::new(problem), system => integrate(problem, system, &parts));
     Trajectory { t, ..path }
 }
 

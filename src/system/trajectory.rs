@@ -1,6 +1,9 @@
 //! The planned motion at the nodes, and its figures.
 
-use super::{FreeFloating, Metrics, Trajectory, torques};
+use super::dispatch::{System, with_system};
+use super::free_floating::FreeFloating;
+use super::functions::torques;
+use super::motion::{Metrics, Trajectory};
 use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
@@ -48,8 +51,7 @@ pub(crate) fn trajectory<Sp: Space>(
         }
         let mut torque = vec![0.0; n];
         torques(&data.mass_matrix, &u, &mut torque);
-        let mut position = attitude.base_position(eta, &data.system_center);
-        problem.carry(out.t[k], position.components_mut());
+        let position = problem.base_position(eta, out.t[k], &data);
         out.base_attitude.push(eta.to_vec());
         out.base_position.push(position.components().to_vec());
         out.base_rate.push(rates);
@@ -102,8 +104,5 @@ pub(crate) fn metrics(trajectory: &Trajectory) -> Metrics {
 /// A planned motion at the nodes of another mesh, as for a smooth curve.
 pub fn resampled(problem: &Problem, plan: &Discretization, mesh: Mesh) -> Trajectory {
     let plan = plan.resample(mesh);
-    match FreeFloating::planar(problem) {
-        Some(planar) => trajectory(&planar, &plan),
-        None => trajectory(&FreeFloating::spatial(problem), &plan),
-    }
+    with_system!(&System::new(problem), system => trajectory(system, &plan))
 }

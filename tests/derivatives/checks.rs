@@ -3,13 +3,20 @@
 use crate::reference::*;
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
+use ffsm_ipopt::dynamics::space::Space;
 use ffsm_ipopt::nlp::Nlp;
-use ffsm_ipopt::ocp::{Ends, Formulation, Ocp, Passage, Point};
+use ffsm_ipopt::ocp::{Ends, Formulation, LimitGroup, Ocp, Passage, Point};
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Patterns, Transcription};
 use num_dual::HyperDual64;
 use num_traits::Zero;
+
+/// The limits of `system` that may give way.
+pub fn groups<Sp: Space>(system: &FreeFloating<Sp>) -> Vec<LimitGroup> {
+    let limits = system.elastic_limits().into_iter();
+    limits.map(|limit| limit.group).collect()
+}
 
 /// Objective and constraints of the programme, written out anew from (25) to (27).
 pub fn programme<O: Ocp>(ocp: &O, mesh: &Mesh, v: &[Reference]) -> (Reference, Vec<Reference>) {

@@ -63,7 +63,7 @@ fn attitude_by_quaternion_and_by_rodrigues_parameters() {
         check_problem(&tumbling, Mesh::uniform(1, 2).unwrap());
         // The limits on the rotation angle give way as one.
         let system = FreeFloating::spatial(&tumbling);
-        let groups = system.limit_groups();
+        let groups = groups(&system);
         let turn = |g: &&LimitGroup| g.name == "base rotation angle";
         let turn: Vec<_> = groups.iter().filter(turn).cloned().collect();
         assert_eq!((turn.len(), turn[0].members.len()), (1, 3), "{turn:?}");

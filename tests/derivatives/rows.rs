@@ -36,7 +36,7 @@ fn way_points_in_joint_and_task_space() {
         check_problem(&problem, mesh.clone());
         if problem.robot.plane().is_some() {
             let system = FreeFloating::planar(&problem).unwrap();
-            check(&Elastic::new(&system, system.limit_groups(), 1e-3), mesh);
+            check(&Elastic::new(&system, groups(&system), 1e-3), mesh);
         }
     }
 }
@@ -71,5 +71,5 @@ fn pairs_kept_apart() {
 fn elastic_limits() {
     let problem = problems::published();
     let system = FreeFloating::planar(&problem).unwrap();
-    check(&Elastic::new(&system, system.limit_groups(), 1e-3), small());
+    check(&Elastic::new(&system, groups(&system), 1e-3), small());
 }

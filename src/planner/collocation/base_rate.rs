@@ -5,7 +5,7 @@ use crate::nlp::Control;
 use crate::planner::{Event, Method, Plan, PlanError};
 use crate::problem::{Cost, Problem};
 use crate::refine::{self, Start};
-use crate::system::CostTerms;
+use crate::system::cost_terms;
 
 /// Weight of ∫‖u‖² beside that of one on ∫‖η̇‖², rad²/s³ against rad²/s.
 ///
@@ -29,7 +29,7 @@ pub(in crate::planner) fn plan(
     own.cost = base_rate_alone(&problem.cost);
     let mut plan = planner.plan_with(&own, start, monitor)?;
     plan.method = Method::BaseRate;
-    plan.objective = CostTerms::of(problem, &plan.trajectory, &plan.discretization.mesh).total();
+    plan.objective = cost_terms(problem, &plan.discretization).total();
     Ok(plan)
 }
 

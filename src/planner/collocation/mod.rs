@@ -13,10 +13,10 @@ use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Nlp, ipopt};
 use crate::ocp::Ocp;
-use crate::problem::{EndEffectorGoal, Problem};
+use crate::problem::{Problem, Task};
 use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
 use crate::system::{
-    FreeFloating, JointPath, Trajectory, along, gaps, metrics, rotation_rows, trajectory,
+    FreeFloating, JointPath, System, Trajectory, along, gaps, metrics, trajectory, with_system,
 };
 use crate::transcription::{Discretization, Patterns, Transcription};
 
@@ -35,8 +35,8 @@ pub fn plan(problem: &Problem) -> Result<Plan, PlanError> {
 
 /// Plans problems one after another and keeps what they share.
 ///
-/// Sparsity patterns are found once for each robot and set of limits; problems that differ in
-/// task, weights' sizes or bounds' values alone reuse them.
+/// Sparsity patterns are found once; problems that differ in where the motion begins and ends, in
+/// the mesh and in the solver alone reuse them.
 #[derive(Debug, Default)]
 pub struct Planner {
     patterns: Option<(Problem, Patterns)>,
@@ -71,16 +71,9 @@ impl Planner {
     ) -> Result<Plan, PlanError> {
         let began = Instant::now();
         problem.validate()?;
-        match FreeFloating::planar(problem) {
-            Some(planar) => self.run(problem, &planar, start, monitor, began),
-            None => self.run(
-                problem,
-                &FreeFloating::spatial(problem),
-                start,
-                monitor,
-                began,
-            ),
-        }
+        with_system!(&System::new(problem), system => {
+            self.run(problem, system, start, monitor, began)
+        })
     }
 
     fn run<Sp: Space>(
@@ -164,7 +157,7 @@ impl Planner {
         let trajectory = trajectory(system, &outcome.trajectory);
         let exceeded = match status {
             Status::Infeasible => Vec::new(),
-            _ => bound_warnings::warnings(problem, system, &outcome.violations),
+            _ => bound_warnings::warnings(system, &outcome.violations),
         };
         let warnings = [
             near_singularity(&trajectory),
@@ -196,7 +189,7 @@ impl Planner {
         let known = self
             .patterns
             .as_ref()
-            .is_some_and(|(last, _)| same_shape(last, problem));
+            .is_some_and(|(last, _)| same_structure(last, problem));
         if !known {
             self.patterns = Some((problem.clone(), Patterns::detect(system)));
         }
@@ -204,40 +197,39 @@ impl Planner {
     }
 }
 
-/// Whether two problems have the same derivatives nonzero.
-fn same_shape(a: &Problem, b: &Problem) -> bool {
-    let zero = |w: &[f64]| w.iter().map(|w| *w == 0.0).collect::<Vec<_>>();
-    let weights = |p: &Problem| {
-        let c = &p.cost;
-        [
-            &c.final_base_attitude,
-            &c.final_base_position,
-            &c.base_rate,
-            &c.joint_rate,
-            &c.control,
-            &c.torque,
-        ]
-        .map(|w| zero(w))
-    };
-    let limited = |p: &Problem| {
-        [&p.limits.base_rate, &p.limits.torque].map(|b| b.iter().any(|b| !b.is_free()))
-    };
-    let passed = |p: &Problem| -> Vec<Option<EndEffectorGoal>> {
-        let points = p.task.way_points.iter();
-        points.map(|point| point.end_effector.clone()).collect()
-    };
-    a.robot == b.robot
-        && a.attitude == b.attitude
-        && rotation_rows(a) == rotation_rows(b)
-        && weights(a) == weights(b)
-        && a.cost.rate_matrix == b.cost.rate_matrix
-        && (a.cost.duration == 0.0) == (b.cost.duration == 0.0)
-        && a.task.end_effector == b.task.end_effector
-        && passed(a) == passed(b)
-        && a.task.initial_momentum == b.task.initial_momentum
-        && a.limits.keep_out == b.limits.keep_out
-        && limited(a) == limited(b)
-        && a.task.duration.is_fixed() == b.task.duration.is_fixed()
+/// Whether two problems have the same derivatives nonzero: those that differ in where a motion
+/// begins and ends, in the mesh and in the solver alone.
+///
+/// Every field is named, so that one to come is not forgotten.
+fn same_structure(a: &Problem, b: &Problem) -> bool {
+    let Problem {
+        name: _,
+        robot,
+        attitude,
+        task,
+        limits,
+        cost,
+        mesh: _,
+        solver: _,
+    } = a;
+    let Task {
+        duration,
+        initial_joints: _,
+        initial_rates: _,
+        initial_momentum,
+        final_joints: _,
+        free_joints: _,
+        end_effector,
+        way_points,
+    } = task;
+    *robot == b.robot
+        && *attitude == b.attitude
+        && *limits == b.limits
+        && *cost == b.cost
+        && *duration == b.task.duration
+        && *initial_momentum == b.task.initial_momentum
+        && *end_effector == b.task.end_effector
+        && *way_points == b.task.way_points
 }
 
 /// The linear solver behind a plan.

@@ -1,16 +1,17 @@
 //! From a motion of the joints alone to a complete plan: the base follows by momentum.
 
 use crate::collocation::{Mesh, MeshError};
+use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::dynamics::{Data, JointKind};
 use crate::nlp::Iterate;
 use crate::ocp::Interval;
-use crate::planner::collocation::diagnosis::{findings, summary_with};
-use crate::planner::{Diagnosis, LimitFinding, Method, Plan, PlanError, Status, Timing};
-use crate::problem::{Problem, ProblemError};
+use crate::planner::collocation::diagnosis::findings;
+use crate::planner::words::sentence;
+use crate::planner::{Diagnosis, LimitFinding, Method, Plan, PlanError, Starts, Status, Timing};
+use crate::problem::{LimitId, Problem, ProblemError, Unit};
 use crate::refine::{Errors, midpoint_errors};
-use crate::system::{CostTerms, FreeFloating, metrics, reached, trajectory};
+use crate::system::{Component, FreeFloating, metrics, reached, trajectory};
 use crate::transcription::Discretization;
 use std::time::Instant;
 
@@ -85,7 +86,7 @@ pub(super) fn assemble<Sp: Space>(
     let (discretization, errors) = on_fine_mesh(system, motion)?;
     let trajectory = trajectory(system, &discretization);
     let max_error = errors.max();
-    let limits = findings(problem, system, &system.limit_groups(), &discretization);
+    let limits = findings(problem, system, &system.elastic_limits(), &discretization);
     let tolerance = problem.mesh.tolerance;
     let status = if !limits.is_empty() {
         Status::Infeasible
@@ -99,15 +100,18 @@ pub(super) fn assemble<Sp: Space>(
         method.name()
     );
     let diagnosis = (status == Status::Infeasible).then(|| Diagnosis {
-        summary: summary_with(&limits, &verb),
+        summary: sentence(&limits, &verb),
         limits,
-        starts: [1, 0],
+        starts: Starts {
+            tried: 1,
+            feasible: 0,
+        },
     });
     let elapsed = began.elapsed();
     Ok(Plan {
         status,
         method,
-        objective: CostTerms::of(problem, &trajectory, &discretization.mesh).total(),
+        objective: system.cost_terms(&discretization).total(),
         tolerance,
         max_error,
         iterations: Vec::new(),
@@ -137,13 +141,11 @@ pub(super) fn goal_missed(problem: &Problem, plan: &mut Plan, there: f64, why: S
     let missed: Vec<LimitFinding> = (reached.iter().zip(&problem.task.final_joints).enumerate())
         .filter(|(_, (q, goal))| (*q - *goal).abs() > there)
         .map(|(j, (&q, &goal))| LimitFinding {
-            key: "task.final.joints".into(),
+            limit: LimitId::FinalJoints,
+            component: Component::Joint(j),
+            name: format!("joint {} position", j + 1),
+            unit: Unit::position(joints[j].kind),
             bound: Interval::fixed(goal),
-            component: format!("joint {} position", j + 1),
-            unit: match joints[j].kind {
-                JointKind::Revolute => "rad",
-                JointKind::Prismatic => "m",
-            },
             excess: (q - goal).abs(),
             smallest_bound: Interval::new(q.min(goal), q.max(goal)),
         })

@@ -9,8 +9,8 @@
 use super::joint_motion::{JointMotion, assemble, duration, rest_to_rest};
 use crate::ocp::Interval;
 use crate::planner::{Diagnosis, Method, Plan, PlanError};
-use crate::problem::Problem;
-use crate::system::FreeFloating;
+use crate::problem::{LimitId, Problem};
+use crate::system::{Component, System, with_system};
 use std::time::Instant;
 
 /// Plans `problem`'s task with the least largest acceleration of every joint.
@@ -25,13 +25,7 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
     let method = Method::Matpm;
     rest_to_rest(method, problem)?;
     let motion = Motion::new(problem);
-    let mut plan = match FreeFloating::planar(problem) {
-        Some(planar) => assemble(problem, &planar, method, &motion, began)?,
-        None => {
-            let spatial = FreeFloating::spatial(problem);
-            assemble(problem, &spatial, method, &motion, began)?
-        }
-    };
+    let mut plan = with_system!(&System::new(problem), system => assemble(problem, system, method, &motion, began))?;
     if let Some(diagnosis) = &mut plan.diagnosis {
         too_fast(problem, &motion, diagnosis);
     }
@@ -44,10 +38,11 @@ fn too_fast(problem: &Problem, motion: &Motion, diagnosis: &mut Diagnosis) {
     let joints = problem.robot.joints();
     let mut sentences = Vec::new();
     for (j, joint) in motion.joints.iter().enumerate().filter(|(_, j)| j.late) {
-        let name = format!("joint {} rate", j + 1);
         let needed = joint.way.abs() / motion.duration();
         let found = diagnosis.limits.iter_mut();
-        for limit in found.filter(|limit| limit.component == name) {
+        for limit in found.filter(|limit| {
+            limit.limit == LimitId::JointVelocity && limit.component == Component::JointRate(j)
+        }) {
             limit.excess = needed - joint.rate;
             limit.smallest_bound = if limit.bound.lower == -limit.bound.upper {
                 Interval::symmetric(needed)

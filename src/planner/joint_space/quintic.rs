@@ -3,7 +3,7 @@
 use super::joint_motion::{JointMotion, assemble, duration, rest_to_rest};
 use crate::planner::{Method, Plan, PlanError};
 use crate::problem::Problem;
-use crate::system::{FreeFloating, quintic};
+use crate::system::{System, quintic, with_system};
 use std::time::Instant;
 
 /// Plans `problem`'s task along the straight joint path.
@@ -19,13 +19,7 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
         to: problem.task.final_joints.clone(),
         ends: [0.0, duration(problem)],
     };
-    match FreeFloating::planar(problem) {
-        Some(planar) => assemble(problem, &planar, method, &motion, began),
-        None => {
-            let spatial = FreeFloating::spatial(problem);
-            assemble(problem, &spatial, method, &motion, began)
-        }
-    }
+    with_system!(&System::new(problem), system => assemble(problem, system, method, &motion, began))
 }
 
 struct Quintic {

@@ -149,7 +149,9 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
         starts: reached.map_or([0; 2], |reached| reached.starts),
         nearest_final_error: reached.map(|reached| reached.max_error),
         smallest_bound_by_diagnosis: smallest_bound(&published),
-        diagnosis_starts: published.diagnosis.map_or([0; 2], |found| found.starts),
+        diagnosis_starts: published
+            .diagnosis
+            .map_or([0; 2], |found| [found.starts.tried, found.starts.feasible]),
         bounded_at: case.problem.limits.base_attitude[0].upper.to_degrees(),
         bounded_largest: largest,
         bounded_error: error,

@@ -1,5 +1,192 @@
-//! The cost (14), term by term.
+//! The cost (14), one file a kind of term: terms of the path, integrated, and terms of the end.
+//!
+//! A term of the path says its value and derivatives by [`PathTerm`], one of the end its value by
+//! [`EndTerm`]. [`PathCost`] and [`EndCost`] list the kinds, [`path`] and [`end`] make those that a
+//! problem has weights for. The cost, its derivatives and its breakdown follow from these lists.
 
-mod terms;
+mod breakdown;
+mod control;
+mod effort;
+mod rates;
+mod terminal;
+mod torque;
 
-pub use terms::{CostTerms, JointEffort};
+pub use breakdown::{CostTerm, CostTerms, Side};
+pub use effort::JointEffort;
+
+pub(crate) use effort::quadrature;
+
+use super::instant::{Instant, Needs, Pose};
+use super::linearization::{Adjoint, Linearization, Lower};
+use super::plant::Plant;
+use crate::autodiff::Scalar;
+use crate::dynamics::space::Space;
+use crate::problem::{CostId, Problem};
+use control::ControlTerm;
+use rates::RateTerm;
+use terminal::{DurationTerm, FinalAttitudeTerm, FinalPositionTerm};
+use torque::TorqueTerm;
+
+/// A term that is integrated along the path.
+pub(crate) trait PathTerm<Sp: Space> {
+    /// The weights behind it.
+    fn id(&self) -> CostId;
+
+    /// Whose motion it is about.
+    fn side(&self) -> Side;
+
+    /// What is needed beyond the state.
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+
+    /// The value, with its weights.
+    fn value<S: Scalar>(&self, at: &Instant<'_, Sp, S>) -> S;
+
+    /// Adds the derivatives by the inputs to `row`.
+    fn gradient(&self, at: &Linearization<'_, Sp>, row: &mut [f64]);
+
+    /// Adds to the weights on what the term is a function of.
+    fn weigh(&self, at: &Linearization<'_, Sp>, weight: f64, adjoint: &mut Adjoint<'_>) {
+        let _ = (at, weight, adjoint);
+    }
+
+    /// Adds second derivatives beyond those of what [`Self::weigh`] names.
+    fn curvature(&self, at: &Linearization<'_, Sp>, weight: f64, hessian: &mut Lower<'_>) {
+        let _ = (at, weight, hessian);
+    }
+}
+
+/// A term of the end.
+pub(crate) trait EndTerm<Sp: Space> {
+    /// The weights behind it.
+    fn id(&self) -> CostId;
+
+    /// Whose motion it is about.
+    fn side(&self) -> Side;
+
+    /// What is needed beyond the state.
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+
+    /// The value, with its weights.
+    fn value<S: Scalar>(&self, at: &Pose<'_, Sp, S>) -> S;
+}
+
+/// The kinds of terms of the path.
+#[derive(Debug, Clone)]
+pub(crate) enum PathCost {
+    Rates(RateTerm),
+    Control(ControlTerm),
+    Torque(TorqueTerm),
+}
+
+macro_rules! each_path {
+    ($cost:expr, $term:ident => $do:expr) => {
+        match $cost {
+            PathCost::Rates($term) => $do,
+            PathCost::Control($term) => $do,
+            PathCost::Torque($term) => $do,
+        }
+    };
+}
+
+/// The terms of the path that `problem` has weights for.
+pub(crate) fn path<Sp: Space>(problem: &Problem) -> Vec<PathCost> {
+    let mut terms = Vec::new();
+    terms.extend(RateTerm::squares(problem).map(PathCost::Rates));
+    terms.extend(ControlTerm::new(problem).map(PathCost::Control));
+    terms.extend(TorqueTerm::new(problem).map(PathCost::Torque));
+    terms.extend(RateTerm::matrix(problem, Sp::ANGLES).map(PathCost::Rates));
+    terms
+}
+
+/// The kinds of terms of the end.
+#[derive(Debug, Clone)]
+pub(crate) enum EndCost {
+    Attitude(FinalAttitudeTerm),
+    Position(FinalPositionTerm),
+    Duration(DurationTerm),
+}
+
+macro_rules! each_end {
+    ($cost:expr, $term:ident => $do:expr) => {
+        match $cost {
+            EndCost::Attitude($term) => $do,
+            EndCost::Position($term) => $do,
+            EndCost::Duration($term) => $do,
+        }
+    };
+}
+
+/// The terms of the end that `problem` has weights for.
+pub(crate) fn end<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<EndCost> {
+    let mut terms = Vec::new();
+    terms.extend(FinalAttitudeTerm::new(problem, plant).map(EndCost::Attitude));
+    terms.extend(DurationTerm::new(problem).map(EndCost::Duration));
+    terms.extend(FinalPositionTerm::new(problem).map(EndCost::Position));
+    terms
+}
+
+impl<Sp: Space> PathTerm<Sp> for PathCost {
+    fn id(&self) -> CostId {
+        each_path!(self, term => PathTerm::<Sp>::id(term))
+    }
+
+    fn side(&self) -> Side {
+        each_path!(self, term => PathTerm::<Sp>::side(term))
+    }
+
+    fn needs(&self) -> Needs {
+        each_path!(self, term => PathTerm::<Sp>::needs(term))
+    }
+
+    fn value<S: Scalar>(&self, at: &Instant<'_, Sp, S>) -> S {
+        each_path!(self, term => term.value(at))
+    }
+
+    fn gradient(&self, at: &Linearization<'_, Sp>, row: &mut [f64]) {
+        each_path!(self, term => term.gradient(at, row));
+    }
+
+    fn weigh(&self, at: &Linearization<'_, Sp>, weight: f64, adjoint: &mut Adjoint<'_>) {
+        each_path!(self, term => term.weigh(at, weight, adjoint));
+    }
+
+    fn curvature(&self, at: &Linearization<'_, Sp>, weight: f64, hessian: &mut Lower<'_>) {
+        each_path!(self, term => term.curvature(at, weight, hessian));
+    }
+}
+
+impl<Sp: Space> EndTerm<Sp> for EndCost {
+    fn id(&self) -> CostId {
+        each_end!(self, term => EndTerm::<Sp>::id(term))
+    }
+
+    fn side(&self) -> Side {
+        each_end!(self, term => EndTerm::<Sp>::side(term))
+    }
+
+    fn needs(&self) -> Needs {
+        each_end!(self, term => EndTerm::<Sp>::needs(term))
+    }
+
+    fn value<S: Scalar>(&self, at: &Pose<'_, Sp, S>) -> S {
+        each_end!(self, term => term.value(at))
+    }
+}
+
+/// Σ wᵢ vᵢ², leaving out what has no weight.
+fn weighted_squares<S: Scalar>(weights: &[f64], values: &[S]) -> S {
+    let mut sum = S::zero();
+    for (&weight, value) in weights.iter().zip(values).filter(|(w, _)| **w != 0.0) {
+        sum += value.square() * weight;
+    }
+    sum
+}
+
+/// `weights` where any of them is above zero.
+fn some(weights: &[f64]) -> Option<Vec<f64>> {
+    weights.iter().any(|w| *w > 0.0).then(|| weights.to_vec())
+}

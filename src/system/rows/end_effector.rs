@@ -1,66 +1,75 @@
 //! Rows of a goal for the end effector, at t_f or at a way-point.
 
+use super::{BoundId, Component, EndRows, Row};
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
-use crate::ocp::{Interval, Quantity};
-use crate::problem::{EndEffectorGoal, GoalFrame};
+use crate::ocp::Interval;
+use crate::problem::{EndEffectorGoal, GoalFrame, LimitId, Problem, Unit};
+use crate::system::instant::Pose;
+use crate::system::plant::Plant;
 
-/// The boundary rows of a goal.
+/// A tenth of a metre or of a radian counts as one where a goal gives way: allowed distances are
+/// small.
+const SIZE: f64 = 0.1;
+
+/// Position along each axis, sines of the rotation about each axis, its cosine.
 #[derive(Debug, Clone)]
-pub(crate) struct GoalRows<Sp: Space> {
+pub(crate) struct EndEffectorRows<Sp: Space> {
     goal: EndEffectorGoal,
     orientation: Option<Sp::Orientation<f64>>,
-    /// Base position at t₀, inertial.
-    start: Sp::Linear<f64>,
+    rows: Vec<Row>,
 }
 
-impl<Sp: Space> GoalRows<Sp> {
-    pub fn new(goal: &EndEffectorGoal, start: Sp::Linear<f64>) -> Self {
+impl<Sp: Space> EndEffectorRows<Sp> {
+    /// Those of the goal at t_f.
+    pub fn at_end(problem: &Problem, _plant: &Plant<Sp>) -> Option<Self> {
+        let goal = problem.task.end_effector.as_ref()?;
+        Some(Self::new(goal, LimitId::EndEffector, ""))
+    }
+
+    /// Those of `goal`, which belong to `limit`; `place` follows their names.
+    pub fn new(goal: &EndEffectorGoal, limit: LimitId, place: &str) -> Self {
+        let row = |component, unit, name: String, bounds| {
+            let id = BoundId::new(limit, component);
+            Row::new(id, unit, format!("{name}{place}"), bounds).sized(SIZE)
+        };
+        let mut rows = Vec::new();
+        let axes = ["x", "y", "z"];
+        for (i, &value) in goal.position.iter().flatten().enumerate() {
+            let room = goal.position_tolerance;
+            let bounds = Interval::new(value - room, value + room);
+            let name = format!("end effector {}", axes[i]);
+            rows.push(row(Component::Position(i), Unit::Metre, name, bounds));
+        }
+        if goal.orientation.is_some() {
+            let sine = goal.orientation_tolerance.sin();
+            let axes: &[&str] = if Sp::ANGLES == 1 { &["heading"] } else { &axes };
+            rows.extend(axes.iter().enumerate().map(|(i, axis)| {
+                let name = format!("end effector rotation, {axis}");
+                let bounds = Interval::symmetric(sine);
+                row(Component::Orientation(i), Unit::One, name, bounds)
+            }));
+            // The sines vanish at half a turn as well.
+            let cosine = Interval::new(0.0, f64::INFINITY);
+            let name = "end effector not turned over".into();
+            rows.push(row(Component::NotReversed, Unit::One, name, cosine));
+        }
         Self {
             orientation: goal
                 .orientation
                 .as_deref()
                 .map(|angles| Sp::Attitude::BY_ANGLES.orientation(angles)),
             goal: goal.clone(),
-            start,
+            rows,
         }
-    }
-
-    /// Names and bounds: position along each axis, sines of the turn about each axis, its cosine.
-    pub fn quantities(&self) -> Vec<Quantity> {
-        let mut rows = Vec::new();
-        for (axis, &value) in ["x", "y", "z"]
-            .iter()
-            .zip(self.goal.position.iter().flatten())
-        {
-            let room = self.goal.position_tolerance;
-            let bounds = Interval::new(value - room, value + room);
-            rows.push(Quantity::new(format!("end effector {axis}"), bounds));
-        }
-        if self.orientation.is_some() {
-            let sine = self.goal.orientation_tolerance.sin();
-            let axes: &[&str] = if Sp::ANGLES == 1 {
-                &["heading"]
-            } else {
-                &["x", "y", "z"]
-            };
-            rows.extend(axes.iter().map(|axis| {
-                let name = format!("end effector turn, {axis}");
-                Quantity::new(name, Interval::symmetric(sine))
-            }));
-            // The sines vanish at half a turn as well.
-            let cosine = Interval::new(0.0, f64::INFINITY);
-            rows.push(Quantity::new("end effector not turned over", cosine));
-        }
-        rows
     }
 
     /// Distance from the position (m) and angle from the orientation (rad) behind values of the
     /// rows; `None` for what is no part of the goal.
-    pub fn gap(&self, rows: &[f64]) -> (Option<f64>, Option<f64>) {
+    pub fn gap(&self, values: &[f64]) -> (Option<f64>, Option<f64>) {
         let norm = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let (at, turned) = rows.split_at(self.goal.position.as_ref().map_or(0, Vec::len));
+        let (at, turned) = values.split_at(self.goal.position.as_ref().map_or(0, Vec::len));
         let distance = self.goal.position.as_ref().map(|wanted| {
             let apart: Vec<f64> = at.iter().zip(wanted).map(|(a, b)| a - b).collect();
             norm(&apart)
@@ -70,36 +79,34 @@ impl<Sp: Space> GoalRows<Sp> {
             .map(|(cosine, sines)| norm(sines).atan2(*cosine));
         (distance, angle)
     }
+}
 
-    /// The rows' values for the base attitude, the end effector's pose in the base frame and the
-    /// system's mass centre; `carry` moves an inertial position with that mass centre.
-    pub fn values<S: Scalar>(
-        &self,
-        (attitude, eta): (Sp::Attitude, &[S]),
-        (orientation, position): (Sp::Orientation<S>, Sp::Linear<S>),
-        system_center: &Sp::Linear<S>,
-        carry: impl Fn(&mut [S]),
-        rows: &mut [S],
-    ) {
-        let lengths = if self.goal.position.is_some() {
-            Sp::LENGTHS
-        } else {
-            0
+impl<Sp: Space> EndRows<Sp> for EndEffectorRows<Sp> {
+    fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    fn values<S: Scalar>(&self, at: &Pose<'_, Sp, S>, rows: &mut [S]) {
+        let Some((orientation, position)) = at.plant.tree.end_effector(at.data) else {
+            return;
         };
-        let (at, turned) = rows.split_at_mut(lengths);
+        let attitude = at.plant.attitude;
+        let lengths = self.goal.position.as_ref().map_or(0, |_| Sp::LENGTHS);
+        let (point, turned) = rows.split_at_mut(lengths);
         if lengths > 0 {
             let seen = match self.goal.frame {
                 GoalFrame::Base => position,
                 GoalFrame::Inertial | GoalFrame::Start => {
-                    attitude.to_inertial(eta, &(position - *system_center))
+                    attitude.to_inertial(at.eta, &(position - at.data.system_center))
                 }
             };
-            at.copy_from_slice(seen.components());
+            point.copy_from_slice(seen.components());
             if self.goal.frame != GoalFrame::Base {
-                carry(at);
+                at.plant.drift.carry(at.t, point);
             }
             if self.goal.frame == GoalFrame::Start {
-                for (value, &origin) in at.iter_mut().zip(self.start.components()) {
+                let start = at.plant.start_position.components();
+                for (value, &origin) in point.iter_mut().zip(start) {
                     *value = *value - origin;
                 }
             }
@@ -107,7 +114,7 @@ impl<Sp: Space> GoalRows<Sp> {
         if let Some(goal) = &self.orientation {
             let seen = match self.goal.frame {
                 GoalFrame::Base => orientation,
-                GoalFrame::Inertial | GoalFrame::Start => attitude.orient(eta, &orientation),
+                GoalFrame::Inertial | GoalFrame::Start => attitude.orient(at.eta, &orientation),
             };
             Sp::turn_between(&seen, goal, turned);
         }

@@ -1,11 +1,16 @@
 //! Spheres on the arm that are kept out of others, and of boxes on the base.
 
+use super::{BoundId, Component, EndRows, PathRows, Row};
 use crate::autodiff::{HyperDual, Scalar};
 use crate::dynamics::space::{Space, Vector};
 use crate::dynamics::{Data, Mount, Placement, Tree};
-use crate::ocp::{Interval, Quantity};
-use crate::problem::{KeepOut, Obstacle};
+use crate::ocp::Interval;
+use crate::problem::{KeepOut, LimitId, Obstacle, Problem, Unit};
+use crate::system::instant::{Instant, Pose};
+use crate::system::linearization::{Linearization, Lower};
+use crate::system::plant::Plant;
 use nalgebra::{Matrix3, Vector3};
+use std::slice;
 
 /// Even power of the norm that rounds a box: a smooth solid around it, with the corners on its
 /// surface and faces that stand off by a fifth of half an edge in space (an eighth in the plane).
@@ -14,7 +19,7 @@ const POWER: i32 = 6;
 /// A pair compiled for evaluation. Its row is at least 1 where the pair is apart.
 #[derive(Debug, Clone)]
 pub(crate) struct KeepOutRow<Sp: Space> {
-    name: String,
+    row: Row,
     sphere: Mount<Sp>,
     from: Solid<Sp>,
 }
@@ -28,7 +33,13 @@ enum Solid<Sp: Space> {
 }
 
 impl<Sp: Space> KeepOutRow<Sp> {
-    pub fn new(pair: &KeepOut, tree: &Tree<Sp>) -> Self {
+    /// The pairs of `problem`.
+    pub fn all(problem: &Problem, plant: &Plant<Sp>) -> impl Iterator<Item = Self> {
+        let pairs = problem.limits.keep_out.iter().enumerate();
+        pairs.map(|(i, pair)| Self::new(i, pair, &plant.tree))
+    }
+
+    fn new(index: usize, pair: &KeepOut, tree: &Tree<Sp>) -> Self {
         let at = |joint, center: [f64; 3]| {
             let placement = Placement {
                 rotation: Matrix3::identity(),
@@ -53,30 +64,19 @@ impl<Sp: Space> KeepOutRow<Sp> {
             }
         };
         Self {
-            name: pair.name.clone(),
+            row: Row::new(
+                BoundId::new(LimitId::KeepOut, Component::Pair(index)),
+                Unit::One,
+                pair.name.clone(),
+                Interval::new(1.0, f64::INFINITY),
+            ),
             sphere: at(pair.sphere.joint, pair.sphere.center),
             from,
         }
     }
 
-    pub fn quantity(&self) -> Quantity {
-        Quantity::new(self.name.clone(), Interval::new(1.0, f64::INFINITY))
-    }
-
-    /// How far the sphere is inside what it is kept out of, m, where the row has that value; for
-    /// a box along the direction in which it is shortest.
-    pub fn depth(&self, value: f64) -> f64 {
-        match &self.from {
-            Solid::Sphere(_, scale) => (1.0 - value.max(0.0).sqrt()) / scale.sqrt(),
-            Solid::Box(_, scales) => {
-                let steepest = scales.iter().copied().fold(0.0, f64::max);
-                (1.0 - value.max(0.0).powf(1.0 / f64::from(POWER))) / steepest
-            }
-        }
-    }
-
     /// Squared distance over the least one, or the box's rounded norm to its power.
-    pub fn value<S: Scalar>(&self, tree: &Tree<Sp>, data: &Data<Sp, S>) -> S {
+    fn value<S: Scalar>(&self, tree: &Tree<Sp>, data: &Data<Sp, S>) -> S {
         let (Solid::Sphere(other, _) | Solid::Box(other, _)) = &self.from;
         self.measure(tree.position(&self.sphere, data) - tree.position(other, data))
     }
@@ -114,7 +114,7 @@ impl<Sp: Space> KeepOutRow<Sp> {
     }
 
     /// Adds the value's derivatives by the joint positions to `row`.
-    pub fn gradient(&self, tree: &Tree<Sp>, data: &Data<Sp, f64>, row: &mut [f64]) {
+    fn add_gradient(&self, tree: &Tree<Sp>, data: &Data<Sp, f64>, row: &mut [f64]) {
         let slope = self.measured(tree, data).rows;
         for (k, sum) in row.iter_mut().enumerate() {
             let by = self.apart_by(tree, data, k);
@@ -123,7 +123,7 @@ impl<Sp: Space> KeepOutRow<Sp> {
     }
 
     /// Hands each second derivative by joint positions k ≥ l to `add`.
-    pub fn curvature(
+    fn each_curvature(
         &self,
         tree: &Tree<Sp>,
         data: &Data<Sp, f64>,
@@ -148,4 +148,35 @@ impl<Sp: Space> KeepOutRow<Sp> {
 
 fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl<Sp: Space> PathRows<Sp> for KeepOutRow<Sp> {
+    fn rows(&self) -> &[Row] {
+        slice::from_ref(&self.row)
+    }
+
+    fn values<S: Scalar>(&self, at: &Instant<'_, Sp, S>, rows: &mut [S]) {
+        EndRows::values(self, &at.pose, rows);
+    }
+
+    fn gradient(&self, at: &Linearization<'_, Sp>, rows: &mut [f64]) {
+        let positions = &mut rows[at.position(0)..at.position(at.joints())];
+        self.add_gradient(&at.plant.tree, at.data, positions);
+    }
+
+    fn curvature(&self, at: &Linearization<'_, Sp>, weights: &[f64], hessian: &mut Lower<'_>) {
+        self.each_curvature(&at.plant.tree, at.data, |k, l, second| {
+            hessian.add(at.position(k), at.position(l), weights[0] * second);
+        });
+    }
+}
+
+impl<Sp: Space> EndRows<Sp> for KeepOutRow<Sp> {
+    fn rows(&self) -> &[Row] {
+        slice::from_ref(&self.row)
+    }
+
+    fn values<S: Scalar>(&self, at: &Pose<'_, Sp, S>, rows: &mut [S]) {
+        rows[0] = self.value(&at.plant.tree, at.data);
+    }
 }

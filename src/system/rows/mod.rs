@@ -1,11 +1,172 @@
-//! Path and boundary rows of the problem, one file a kind.
+//! Rows of the problem, one file a kind: path rows, rows of the end and of way-points.
+//!
+//! A kind of path row says its bounds, values and derivatives by [`PathRows`]; a kind of row of the
+//! end by [`EndRows`]. [`PathBlock`] and [`EndBlock`] list the kinds, [`path`] and [`end`] make
+//! those that a problem has. All else (order, structure, limits that give way, units, warnings)
+//! follows from these lists.
 
+mod base_rate;
 mod end_effector;
 mod keep_out;
 mod rotation_angle;
+mod row;
+mod torque;
 mod way_point;
 
-pub(crate) use end_effector::GoalRows;
-pub(crate) use keep_out::KeepOutRow;
-pub(crate) use rotation_angle::{ROTATION, TurnLimits, rows as rotation_rows};
-pub(crate) use way_point::formulate;
+pub use row::{BoundId, Component, Measure, Row};
+
+pub(crate) use end_effector::EndEffectorRows;
+pub(crate) use rotation_angle::{NAME as ROTATION_ANGLE, held};
+pub(crate) use way_point::{WayPointRows, way_point};
+
+use super::instant::{Instant, Needs, Pose};
+use super::linearization::{Adjoint, Linearization, Lower};
+use super::plant::Plant;
+use crate::autodiff::Scalar;
+use crate::dynamics::space::Space;
+use crate::problem::Problem;
+use base_rate::BaseRateRows;
+use keep_out::KeepOutRow;
+use rotation_angle::RotationAngleRow;
+use torque::TorqueRows;
+
+/// Rows held at every collocation point.
+pub(crate) trait PathRows<Sp: Space> {
+    /// Limits, units and bounds, one a row.
+    fn rows(&self) -> &[Row];
+
+    /// What is needed beyond the state.
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+
+    /// Writes the values.
+    fn values<S: Scalar>(&self, at: &Instant<'_, Sp, S>, rows: &mut [S]);
+
+    /// Adds the derivatives by the inputs to `rows`, each [`Linearization::width`] wide.
+    fn gradient(&self, at: &Linearization<'_, Sp>, rows: &mut [f64]);
+
+    /// Adds to the weights on what the rows are functions of.
+    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+        let _ = (weights, adjoint);
+    }
+
+    /// Adds second derivatives beyond those of what [`Self::weigh`] names.
+    fn curvature(&self, at: &Linearization<'_, Sp>, weights: &[f64], hessian: &mut Lower<'_>) {
+        let _ = (at, weights, hessian);
+    }
+}
+
+/// Rows held at t_f, which is no collocation point.
+pub(crate) trait EndRows<Sp: Space> {
+    /// Limits, units and bounds, one a row.
+    fn rows(&self) -> &[Row];
+
+    /// What is needed beyond the state.
+    fn needs(&self) -> Needs {
+        Needs {
+            end_pose: true,
+            ..Needs::default()
+        }
+    }
+
+    /// Writes the values.
+    fn values<S: Scalar>(&self, at: &Pose<'_, Sp, S>, rows: &mut [S]);
+}
+
+/// The kinds of path rows.
+#[derive(Debug, Clone)]
+pub(crate) enum PathBlock<Sp: Space> {
+    BaseRate(BaseRateRows),
+    Torque(TorqueRows),
+    RotationAngle(RotationAngleRow),
+    KeepOut(KeepOutRow<Sp>),
+}
+
+macro_rules! each_path {
+    ($block:expr, $rows:ident => $do:expr) => {
+        match $block {
+            PathBlock::BaseRate($rows) => $do,
+            PathBlock::Torque($rows) => $do,
+            PathBlock::RotationAngle($rows) => $do,
+            PathBlock::KeepOut($rows) => $do,
+        }
+    };
+}
+
+/// The path rows of `problem`, in the order of the programme.
+pub(crate) fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<PathBlock<Sp>> {
+    let mut blocks = Vec::new();
+    blocks.extend(BaseRateRows::new(problem, plant).map(PathBlock::BaseRate));
+    blocks.extend(TorqueRows::new(problem).map(PathBlock::Torque));
+    blocks.extend(RotationAngleRow::path(problem, plant).map(PathBlock::RotationAngle));
+    blocks.extend(KeepOutRow::all(problem, plant).map(PathBlock::KeepOut));
+    blocks
+}
+
+/// The kinds of rows of the end.
+#[derive(Debug, Clone)]
+pub(crate) enum EndBlock<Sp: Space> {
+    EndEffector(EndEffectorRows<Sp>),
+    RotationAngle(RotationAngleRow),
+    KeepOut(KeepOutRow<Sp>),
+}
+
+macro_rules! each_end {
+    ($block:expr, $rows:ident => $do:expr) => {
+        match $block {
+            EndBlock::EndEffector($rows) => $do,
+            EndBlock::RotationAngle($rows) => $do,
+            EndBlock::KeepOut($rows) => $do,
+        }
+    };
+}
+
+/// The rows of the end of `problem`, in the order of the programme.
+pub(crate) fn end<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<EndBlock<Sp>> {
+    let mut blocks = Vec::new();
+    blocks.extend(EndEffectorRows::at_end(problem, plant).map(EndBlock::EndEffector));
+    blocks.extend(RotationAngleRow::ends(problem, plant).map(EndBlock::RotationAngle));
+    blocks.extend(KeepOutRow::all(problem, plant).map(EndBlock::KeepOut));
+    blocks
+}
+
+impl<Sp: Space> PathRows<Sp> for PathBlock<Sp> {
+    fn rows(&self) -> &[Row] {
+        each_path!(self, block => PathRows::<Sp>::rows(block))
+    }
+
+    fn needs(&self) -> Needs {
+        each_path!(self, block => PathRows::<Sp>::needs(block))
+    }
+
+    fn values<S: Scalar>(&self, at: &Instant<'_, Sp, S>, rows: &mut [S]) {
+        each_path!(self, block => PathRows::<Sp>::values(block, at, rows));
+    }
+
+    fn gradient(&self, at: &Linearization<'_, Sp>, rows: &mut [f64]) {
+        each_path!(self, block => block.gradient(at, rows));
+    }
+
+    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+        each_path!(self, block => PathRows::<Sp>::weigh(block, weights, adjoint));
+    }
+
+    fn curvature(&self, at: &Linearization<'_, Sp>, weights: &[f64], hessian: &mut Lower<'_>) {
+        each_path!(self, block => block.curvature(at, weights, hessian));
+    }
+}
+
+impl<Sp: Space> EndRows<Sp> for EndBlock<Sp> {
+    fn rows(&self) -> &[Row] {
+        each_end!(self, block => EndRows::<Sp>::rows(block))
+    }
+
+    fn needs(&self) -> Needs {
+        each_end!(self, block => EndRows::<Sp>::needs(block))
+    }
+
+    fn values<S: Scalar>(&self, at: &Pose<'_, Sp, S>, rows: &mut [S]) {
+        each_end!(self, block => EndRows::<Sp>::values(block, at, rows));
+    }
+}

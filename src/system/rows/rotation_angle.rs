@@ -1,108 +1,117 @@
 //! Limits on the rotation angle of the base, where its attitude is not described by angles.
 
+use super::{BoundId, Component, EndRows, Measure, PathRows, Row};
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::Attitude;
-use crate::dynamics::space::{Space, Spatial};
-use crate::ocp::{Interval, Quantity};
-use crate::problem::Problem;
+use crate::dynamics::space::Space;
+use crate::ocp::Interval;
+use crate::problem::{LimitId, Problem, Unit};
+use crate::system::instant::{Instant, Needs, Pose};
+use crate::system::linearization::{Adjoint, Linearization};
+use crate::system::plant::Plant;
 use std::f64::consts::PI;
+use std::slice;
 
 /// What a person calls the rotation angle.
-pub(crate) const ROTATION: &str = "base rotation angle";
+pub(crate) const NAME: &str = "base rotation angle";
 
-/// The limits, each a row (φ/bound)² ≤ 1: along the path, and up to two at t_f, which no path row
-/// reaches.
+/// A limit on the rotation angle φ as the row (φ/bound)² ≤ 1; φ itself is not smooth at zero.
 ///
 /// A bound of zero is no such row, which would have no gradient where it holds, but holds the
-/// parameters themselves; from half a turn on there is no limit.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct TurnLimits {
-    /// Bounds, rad; those of zero left out.
-    path: Option<f64>,
-    ends: Vec<f64>,
-    /// Whether the base is held along the path, and at t_f; `None` where each angle has limits.
-    held: Option<[bool; 2]>,
+/// parameters themselves ([`held`]); from half a turn on there is no limit.
+#[derive(Debug, Clone)]
+pub(crate) struct RotationAngleRow {
+    row: Row,
+    /// 1/bound².
+    factor: f64,
 }
 
-impl TurnLimits {
-    /// The limits of `problem`; none where each angle has its own.
-    pub fn new<Sp: Space>(problem: &Problem, attitude: Sp::Attitude) -> Self {
-        if attitude.is_angles() {
-            return Self::default();
-        }
-        let [along, last] = Self::bounds(problem);
-        let row = |bound: &f64| *bound > 0.0 && *bound < PI;
-        Self {
-            path: Some(along).filter(row),
+impl RotationAngleRow {
+    /// The limit along the path.
+    pub fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Option<Self> {
+        let [along, _] = limits(problem, plant)?;
+        Self::new(LimitId::BaseAttitude, along)
+    }
+
+    /// The limits at t_f: its own, and that along the path, which no path row holds there.
+    pub fn ends<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> impl Iterator<Item = Self> {
+        let limits = limits(problem, plant).into_iter();
+        limits.flat_map(|[along, last]| {
             // Never two rows of which both could be at their bound.
-            ends: [(true, last), (along < last, along)]
-                .into_iter()
-                .filter(|(wanted, bound)| *wanted && row(bound))
-                .map(|(_, bound)| bound)
-                .collect(),
-            held: Some([along == 0.0, last == 0.0]),
-        }
-    }
-
-    /// The largest rotation angle along the path and at t_f, rad; infinite where not limited.
-    pub fn bounds(problem: &Problem) -> [f64; 2] {
-        let limits = &problem.limits;
-        [&limits.base_attitude, &limits.final_base_attitude].map(|bounds| bounds[0].upper)
-    }
-
-    /// Bounds of the parameters along the path and at t_f; `start` are those at t₀.
-    pub fn parameter_bounds(&self, problem: &Problem, start: &[f64]) -> [Vec<Interval>; 2] {
-        let limits = &problem.limits;
-        let Some(held) = self.held else {
-            return [&limits.base_attitude, &limits.final_base_attitude].map(Vec::clone);
-        };
-        held.map(|held| {
-            let bound = |&start: &f64| match held && start == 0.0 {
-                true => Interval::fixed(0.0),
-                false => Interval::FREE,
-            };
-            start.iter().map(bound).collect()
+            let along = Some(along).filter(|&along| along < last);
+            let end = Self::new(LimitId::FinalBaseAttitude, last);
+            let along = along.and_then(|along| Self::new(LimitId::BaseAttitude, along));
+            end.into_iter().chain(along)
         })
     }
 
-    /// Path rows.
-    pub fn path(&self) -> Vec<Quantity> {
-        self.path.iter().map(|_| quantity()).collect()
-    }
-
-    /// Boundary rows.
-    pub fn ends(&self) -> Vec<Quantity> {
-        self.ends.iter().map(|_| quantity()).collect()
-    }
-
-    /// Values of the path rows for φ².
-    pub fn path_values<S: Scalar>(&self, squared_turn: impl FnOnce() -> S, rows: &mut [S]) {
-        if let Some(bound) = self.path {
-            rows[0] = squared_turn() * bound.powi(-2);
-        }
-    }
-
-    /// Values of the boundary rows for φ².
-    pub fn end_values<S: Scalar>(&self, squared_turn: impl FnOnce() -> S, rows: &mut [S]) {
-        if !self.ends.is_empty() {
-            let square = squared_turn();
-            for (row, bound) in rows.iter_mut().zip(&self.ends) {
-                *row = square * bound.powi(-2);
-            }
-        }
+    fn new(limit: LimitId, bound: f64) -> Option<Self> {
+        let id = BoundId::new(limit, Component::RotationAngle);
+        let bounds = Interval::new(f64::NEG_INFINITY, 1.0);
+        let row = Row {
+            measure: Measure::SquaredRatio { bound },
+            // Of the squares: twice the relative excess of the angle, to first order.
+            size: 2.0,
+            ..Row::new(id, Unit::Radian, NAME, bounds)
+        };
+        (bound > 0.0 && bound < PI).then(|| Self {
+            row,
+            factor: bound.powi(-2),
+        })
     }
 }
 
-/// Which rows the limits of `problem` make; problems with the same have the same derivatives
-/// nonzero.
-pub(crate) fn rows(problem: &Problem) -> [usize; 2] {
-    if problem.attitude_sizes().1 == Problem::base_sizes(&problem.robot).0 {
-        return [0; 2];
-    }
-    let limits = TurnLimits::new::<Spatial>(problem, problem.attitude);
-    [limits.path.iter().len(), limits.ends.len()]
+/// The largest rotation angle along the path and at t_f, rad, infinite where not limited; `None`
+/// where each angle has its own limits.
+fn limits<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Option<[f64; 2]> {
+    let limits = &problem.limits;
+    let bounds = [&limits.base_attitude, &limits.final_base_attitude];
+    (!plant.attitude.is_angles()).then(|| bounds.map(|bounds| bounds[0].upper))
 }
 
-fn quantity() -> Quantity {
-    Quantity::new(ROTATION, Interval::new(f64::NEG_INFINITY, 1.0))
+/// Whether a bound of zero holds the base where it was: along the path, and at t_f; `None` where
+/// each angle has its own limits.
+pub(crate) fn held<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Option<[bool; 2]> {
+    limits(problem, plant).map(|bounds| bounds.map(|bound| bound == 0.0))
+}
+
+impl<Sp: Space> PathRows<Sp> for RotationAngleRow {
+    fn rows(&self) -> &[Row] {
+        slice::from_ref(&self.row)
+    }
+
+    fn needs(&self) -> Needs {
+        Needs {
+            rotation: true,
+            ..Needs::default()
+        }
+    }
+
+    fn values<S: Scalar>(&self, at: &Instant<'_, Sp, S>, rows: &mut [S]) {
+        EndRows::<Sp>::values(self, &at.pose, rows);
+    }
+
+    fn gradient(&self, at: &Linearization<'_, Sp>, rows: &mut [f64]) {
+        for (to, by) in rows.iter_mut().zip(at.squared_rotation_by()) {
+            *to = self.factor * by;
+        }
+    }
+
+    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+        adjoint.squared_rotation[0] += self.factor * weights[0];
+    }
+}
+
+impl<Sp: Space> EndRows<Sp> for RotationAngleRow {
+    fn rows(&self) -> &[Row] {
+        slice::from_ref(&self.row)
+    }
+
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+
+    fn values<S: Scalar>(&self, at: &Pose<'_, Sp, S>, rows: &mut [S]) {
+        rows[0] = at.plant.attitude.squared_turn(at.eta) * self.factor;
+    }
 }

@@ -1,118 +1,108 @@
-//! Which bounds a trajectory exceeds, by how much, and in words.
+//! Which bounds a trajectory exceeds, and by how much.
 
 use super::HELD;
-use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::ocp::{Interval, LimitGroup, Limited, Ocp};
+use crate::ocp::{Interval, Limited};
 use crate::planner::LimitFinding;
-use crate::problem::Problem;
-use crate::system::{FreeFloating, ROTATION, TurnLimits};
+use crate::problem::{LimitId, Problem, Unit};
+use crate::system::{Component, ElasticLimit, FreeFloating, ROTATION_ANGLE};
 use crate::transcription::Discretization;
 
-/// Every bound of `groups` that `trajectory` exceeds.
+/// Every bound of `limits` that `trajectory` exceeds.
 pub(in crate::planner) fn findings<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
-    groups: &[LimitGroup],
+    limits: &[ElasticLimit],
     trajectory: &Discretization,
 ) -> Vec<LimitFinding> {
-    let formulation = system.formulation();
-    let planned = crate::system::trajectory(system, trajectory);
-    let column = |rows: &[Vec<f64>], i: usize| rows.iter().map(|row| row[i]).collect::<Vec<_>>();
-    let state_rows: Vec<Vec<f64>> = (0..=trajectory.mesh.points())
-        .map(|k| trajectory.state(k).to_vec())
-        .collect();
-    let last = &state_rows[state_rows.len() - 1];
-    let path_rows = system.path_rows(trajectory);
-    let end_rows = system.end_rows(trajectory);
-    let passed = system.passed(trajectory);
-    let mut limits = Vec::new();
-    for group in groups {
-        if group.name == ROTATION {
-            limits.extend(turn_findings(problem, system, &state_rows));
+    let reached = Reached::of(system, trajectory);
+    let mut found: Vec<LimitFinding> = Vec::new();
+    for limit in limits {
+        if limit.id.component == Component::RotationAngle {
+            found.extend(rotations(problem, system, &reached.states));
             continue;
         }
-        for &member in &group.members {
-            let mut at_way_point = None;
-            let (key, component, bound, values) = match member {
-                Limited::State(i) => {
-                    let state = &formulation.states[i];
-                    let key = system.state_limit(i).0;
-                    (key, &state.name, state.bounds, column(&state_rows, i))
-                }
-                Limited::Terminal(i) => (
-                    "limits.final_base_attitude",
-                    &formulation.states[i].name,
-                    formulation.terminal[i],
-                    vec![last[i]],
-                ),
-                Limited::Control(j) => {
-                    let control = &formulation.controls[j];
-                    (
-                        "limits.control",
-                        &control.name,
-                        control.bounds,
-                        column(&planned.control, j),
-                    )
-                }
-                Limited::Boundary(b) => {
-                    let row = &formulation.boundary[b];
-                    (
-                        system.boundary_key(b),
-                        &row.name,
-                        row.bounds,
-                        vec![end_rows[b]],
-                    )
-                }
-                Limited::Passed(w, i) => {
-                    at_way_point = Some(w);
-                    let bound = formulation.way_points[w].states[i];
-                    ("task.way_points", &group.name, bound, vec![passed[w].0[i]])
-                }
-                Limited::WayPoint(w, r) => {
-                    at_way_point = Some(w);
-                    let bound = formulation.way_points[w].rows[r].bounds;
-                    ("task.way_points", &group.name, bound, vec![passed[w].1[r]])
-                }
-                Limited::Path(p) => {
-                    let row = &formulation.path[p];
-                    (
-                        system.path_limit(p).0,
-                        &row.name,
-                        row.bounds,
-                        column(&path_rows, p),
-                    )
-                }
+        for &member in &limit.group.members {
+            let row = system.bound(member);
+            let bound = row.measured_bounds();
+            let values = reached.values(member).map(|value| row.measured(value));
+            let range = range(values);
+            let excess = bound
+                .violation(range.lower)
+                .max(bound.violation(range.upper));
+            if excess <= HELD * limit.group.scale {
+                continue;
+            }
+            let finding = LimitFinding {
+                limit: row.id.limit,
+                component: row.id.component,
+                name: row.quantity.name.clone(),
+                unit: row.unit,
+                bound,
+                excess,
+                smallest_bound: widened(bound, range),
             };
-            let reached = values.iter().fold(
-                Interval::new(f64::INFINITY, f64::NEG_INFINITY),
-                |range, &v| Interval::new(range.lower.min(v), range.upper.max(v)),
-            );
-            let excess = values
-                .iter()
-                .map(|&v| bound.violation(v))
-                .fold(0.0, f64::max);
-            if excess > HELD * group.scale {
-                limits.push(LimitFinding {
-                    key: match at_way_point {
-                        Some(w) => format!("{key}[{w}]"),
-                        None => key.into(),
-                    },
-                    component: component.clone(),
-                    unit: unit(problem, key, component, member_joint(system, member)),
-                    bound,
-                    excess,
-                    smallest_bound: widened(bound, reached),
-                });
+            // One limit may hold at the points and again at t_f, which is none.
+            let same = |known: &&mut LimitFinding| {
+                (known.limit, known.component) == (finding.limit, finding.component)
+            };
+            match found.iter_mut().find(same) {
+                Some(known) => {
+                    known.excess = known.excess.max(excess);
+                    known.smallest_bound = widened(known.smallest_bound, range);
+                }
+                None => found.push(finding),
             }
         }
     }
-    limits
+    found
+}
+
+/// Values of all that is bounded, along a trajectory.
+struct Reached {
+    /// One row a node.
+    states: Vec<Vec<f64>>,
+    /// One row a point; with the value at t_f, kept within its limits.
+    controls: Vec<Vec<f64>>,
+    path: Vec<Vec<f64>>,
+    boundary: Vec<f64>,
+    /// States and rows of every way-point.
+    way_points: Vec<(Vec<f64>, Vec<f64>)>,
+}
+
+impl Reached {
+    fn of<Sp: Space>(system: &FreeFloating<Sp>, trajectory: &Discretization) -> Self {
+        let nodes = 0..=trajectory.mesh.points();
+        Self {
+            states: nodes.map(|k| trajectory.state(k).to_vec()).collect(),
+            controls: crate::system::trajectory(system, trajectory).control,
+            path: system.path_values(trajectory),
+            boundary: system.end_values(trajectory),
+            way_points: system.way_point_values(trajectory),
+        }
+    }
+
+    fn values(&self, bound: Limited) -> Box<dyn Iterator<Item = f64> + '_> {
+        let column = |rows: &'_ [Vec<f64>], i: usize| {
+            let values: Vec<f64> = rows.iter().map(|row| row[i]).collect();
+            Box::new(values.into_iter())
+        };
+        let one = |value: f64| Box::new(std::iter::once(value));
+        match bound {
+            Limited::State(i) => column(&self.states, i),
+            Limited::Control(j) => column(&self.controls, j),
+            Limited::Path(p) => column(&self.path, p),
+            Limited::Terminal(i) => one(self.states[self.states.len() - 1][i]),
+            Limited::Boundary(b) => one(self.boundary[b]),
+            Limited::Passed(w, i) => one(self.way_points[w].0[i]),
+            Limited::WayPoint(w, r) => one(self.way_points[w].1[r]),
+        }
+    }
 }
 
 /// The bounds on the rotation angle that `states`, one row a node, exceed.
-fn turn_findings<Sp: Space>(
+fn rotations<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
     states: &[Vec<f64>],
@@ -123,23 +113,35 @@ fn turn_findings<Sp: Space>(
         .map(|x| attitude.squared_turn(&x[..attitude.count()]).sqrt())
         .collect();
     let largest = turned.iter().copied().fold(0.0, f64::max);
-    let last = turned[turned.len() - 1];
-    let [along, at_end] = TurnLimits::bounds(problem);
+    let limits = &problem.limits;
     [
-        ("limits.base_attitude", along, largest),
-        ("limits.final_base_attitude", at_end, last),
+        (LimitId::BaseAttitude, &limits.base_attitude, largest),
+        (
+            LimitId::FinalBaseAttitude,
+            &limits.final_base_attitude,
+            turned[turned.len() - 1],
+        ),
     ]
     .into_iter()
+    .map(|(limit, bounds, reached)| (limit, bounds[0].upper, reached))
     .filter(|(_, bound, reached)| reached - bound > HELD * bound.max(1e-3))
-    .map(|(key, bound, reached)| LimitFinding {
-        key: key.into(),
-        component: ROTATION.into(),
-        unit: "rad",
+    .map(|(limit, bound, reached)| LimitFinding {
+        limit,
+        component: Component::RotationAngle,
+        name: ROTATION_ANGLE.into(),
+        unit: Unit::Radian,
         bound: Interval::new(0.0, bound),
         excess: reached - bound,
         smallest_bound: Interval::new(0.0, reached),
     })
     .collect()
+}
+
+fn range(values: impl Iterator<Item = f64>) -> Interval {
+    let nothing = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
+    values.fold(nothing, |range, value| {
+        Interval::new(range.lower.min(value), range.upper.max(value))
+    })
 }
 
 /// `bound` widened to hold `reached`; symmetric bounds stay symmetric.
@@ -152,99 +154,5 @@ fn widened(bound: Interval, reached: Interval) -> Interval {
         Interval::symmetric(wide.upper.max(-wide.lower))
     } else {
         wide
-    }
-}
-
-/// One sentence about what cannot hold.
-pub(super) fn summary(limits: &[LimitFinding]) -> String {
-    let verb = "cannot hold; the smallest bound that was found to work is";
-    summary_with(limits, verb)
-}
-
-/// One sentence that says of every limit, by `verb`, what stands to the bound that would hold;
-/// limits of the same bound on the same component share their part of it.
-pub(in crate::planner) fn summary_with(limits: &[LimitFinding], verb: &str) -> String {
-    let mut parts: Vec<(Vec<String>, &LimitFinding)> = Vec::new();
-    for finding in limits {
-        let limit = format!("{} = {}", finding.key, shown(finding, &finding.bound));
-        let same = |other: &LimitFinding| {
-            other.component == finding.component
-                && other.bound == finding.bound
-                && shown(other, &other.smallest_bound) == shown(finding, &finding.smallest_bound)
-        };
-        match parts.iter_mut().find(|(_, other)| same(other)) {
-            Some((keys, _)) => keys.push(limit),
-            None => parts.push((vec![limit], finding)),
-        }
-    }
-    let part = |(keys, finding): &(Vec<String>, &LimitFinding)| {
-        format!(
-            "{} ({}) {verb} {}",
-            keys.join(" and "),
-            finding.component,
-            shown(finding, &finding.smallest_bound)
-        )
-    };
-    parts.iter().map(part).collect::<Vec<_>>().join("; ")
-}
-
-/// The joint a bound is about; `None` for the base and for what is about no single joint.
-fn member_joint<Sp: Space>(system: &FreeFloating<Sp>, member: Limited) -> Option<usize> {
-    match member {
-        Limited::State(i) | Limited::Terminal(i) | Limited::Passed(_, i) => system.state_limit(i).1,
-        Limited::Control(j) => Some(j),
-        Limited::Path(p) => system.path_limit(p).1,
-        Limited::Boundary(_) | Limited::WayPoint(..) => None,
-    }
-}
-
-/// Unit of a bound: of a quantity of the problem file's key `key`, and of a joint where it is one's.
-pub(in crate::planner) fn unit(
-    problem: &Problem,
-    key: &str,
-    component: &str,
-    joint: Option<usize>,
-) -> &'static str {
-    if joint.is_none() && key.starts_with("task.") {
-        // Turns are bounded by their sines.
-        return if component.contains("turn") { "1" } else { "m" };
-    }
-    let slides = joint.is_some_and(|j| problem.robot.joints()[j].kind == JointKind::Prismatic);
-    match (key, slides) {
-        ("task.way_points", false) if component.contains("rate") => "rad/s",
-        ("task.way_points", true) if component.contains("rate") => "m/s",
-        ("limits.keep_out", _) => "of the least distance squared",
-        ("limits.torque", false) => "N·m",
-        ("limits.torque", true) => "N",
-        ("limits.base_rate" | "limits.joint_velocity", false) => "rad/s",
-        ("limits.joint_velocity", true) => "m/s",
-        ("limits.control", false) => "rad/s²",
-        ("limits.control", true) => "m/s²",
-        (_, true) => "m",
-        (_, false) => "rad",
-    }
-}
-
-/// Factor and unit by which a person reads a quantity: angles in degrees.
-pub(in crate::planner) fn readable(unit: &str) -> (f64, String) {
-    match unit.strip_prefix("rad") {
-        Some(rest) => (1f64.to_degrees(), format!("°{rest}")),
-        None => (1.0, format!(" {unit}")),
-    }
-}
-
-/// A bound as a person reads it.
-fn shown(finding: &LimitFinding, bound: &Interval) -> String {
-    let (factor, unit) = readable(finding.unit);
-    if finding.component == ROTATION {
-        format!("{:.2}{unit}", bound.upper * factor)
-    } else if bound.lower == -bound.upper {
-        format!("±{:.2}{unit}", bound.upper * factor)
-    } else {
-        format!(
-            "[{:.2}, {:.2}]{unit}",
-            bound.lower * factor,
-            bound.upper * factor
-        )
     }
 }

@@ -2,17 +2,17 @@
 
 mod findings;
 
-pub(in crate::planner) use findings::{findings, readable, summary_with, unit};
+pub(in crate::planner) use findings::findings;
 
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Statistics};
-use crate::ocp::{Elastic, Interval, LimitGroup, Ocp};
-use crate::planner::{Diagnosis, Event, PlanError};
+use crate::ocp::{Elastic, Interval, Ocp};
+use crate::planner::words::cannot_hold;
+use crate::planner::{Diagnosis, Event, PlanError, Starts};
 use crate::problem::Problem;
 use crate::refine::{self, Method, Refinement, Start};
-use crate::system::{FreeFloating, JointPath, along};
+use crate::system::{ElasticLimit, FreeFloating, JointPath, along};
 use crate::transcription::{Discretization, Patterns};
-use findings::summary;
 
 /// Starts tried: the failed trajectory, the straight path, and paths through random detours.
 const STARTS: usize = 16;
@@ -48,9 +48,9 @@ pub(super) fn diagnose<Sp: Space>(
     failed: &Discretization,
     monitor: &mut dyn FnMut(&Event<'_>) -> Control,
 ) -> Result<Diagnosed, PlanError> {
-    let groups = system.limit_groups();
-    let on_base = |group: &&LimitGroup| group.name.starts_with("base");
-    let base: Vec<LimitGroup> = groups.iter().filter(on_base).cloned().collect();
+    let limits = system.elastic_limits();
+    let on_base = |limit: &&ElasticLimit| limit.id.limit.is_on_base();
+    let base: Vec<ElasticLimit> = limits.iter().filter(on_base).cloned().collect();
     let mut search = Search {
         problem,
         system,
@@ -69,7 +69,7 @@ pub(super) fn diagnose<Sp: Space>(
             ..
         })
     ) {
-        found = search.run(groups)?;
+        found = search.run(limits)?;
     }
     let statistics = search.statistics;
     let none = |interrupted| Diagnosed {
@@ -88,7 +88,7 @@ pub(super) fn diagnose<Sp: Space>(
     if found.interrupted {
         return Ok(none(true));
     }
-    let limits = findings(problem, system, &found.groups, &trajectory);
+    let limits = findings(problem, system, &found.limits, &trajectory);
     if limits.is_empty() {
         return Ok(Diagnosed {
             feasible: true,
@@ -96,7 +96,7 @@ pub(super) fn diagnose<Sp: Space>(
             ..none(false)
         });
     }
-    let summary = summary(&limits);
+    let summary = cannot_hold(&limits);
     let diagnosis = Some(Diagnosis {
         limits,
         starts: found.starts,
@@ -110,10 +110,10 @@ pub(super) fn diagnose<Sp: Space>(
 }
 
 struct Found {
-    groups: Vec<LimitGroup>,
+    limits: Vec<ElasticLimit>,
     /// The trajectory of least excess; `None` where no start led to one.
     trajectory: Option<Discretization>,
-    starts: [usize; 2],
+    starts: Starts,
     interrupted: bool,
 }
 
@@ -126,12 +126,13 @@ struct Search<'a, 'm, Sp: Space> {
 }
 
 impl<Sp: Space> Search<'_, '_, Sp> {
-    /// The least excess of `groups` over all starts.
-    fn run(&mut self, groups: Vec<LimitGroup>) -> Result<Option<Found>, PlanError> {
-        if groups.is_empty() {
+    /// The least excess of `limits` over all starts.
+    fn run(&mut self, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
+        if limits.is_empty() {
             return Ok(None);
         }
-        let elastic = Elastic::new(self.system, groups.clone(), REGULARIZATION);
+        let groups = limits.iter().map(|limit| limit.group.clone()).collect();
+        let elastic = Elastic::new(self.system, groups, REGULARIZATION);
         let patterns = Patterns::detect(&elastic);
         let settings = refine::Settings {
             method: Method::Adaptive,
@@ -211,9 +212,12 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         }
         let trajectory = best.map(|(_, trajectory)| trajectory);
         Ok(Some(Found {
-            groups,
+            limits,
             trajectory,
-            starts: [tried, solved],
+            starts: Starts {
+                tried,
+                feasible: solved,
+            },
             interrupted,
         }))
     }

@@ -29,7 +29,7 @@ use crate::nlp::Control;
 use crate::ocp::Interval;
 use crate::planner::{Event, Method, Plan, PlanError, Status};
 use crate::problem::Problem;
-use crate::system::FreeFloating;
+use crate::system::{FreeFloating, System, with_system};
 use arrival::Way;
 use base::Affine;
 use bounds::{BRAKE, Joint, narrowed};
@@ -56,41 +56,34 @@ pub(in crate::planner) fn plan(
 ) -> Result<Plan, PlanError> {
     let began = time::Instant::now();
     rest_to_rest(Method::AccelerationQp, problem)?;
-    match FreeFloating::planar(problem) {
-        Some(planar) => run([(problem, &planar); 2], monitor, began),
-        None => {
-            // References are for angles, whatever the plan is to be written in.
-            let mut by_angles = problem.clone();
-            if !problem.attitude.is_angles() {
-                by_angles.set_attitude(SpatialAttitude::RollPitchYaw);
-            }
-            let steered = FreeFloating::spatial(&by_angles);
-            let system = FreeFloating::spatial(problem);
-            let posed = [(&by_angles, &steered), (problem, &system)];
-            run(posed, monitor, began)
-        }
+    // References are for angles, whatever the plan is to be written in.
+    let mut by_angles = problem.clone();
+    if problem.robot.plane().is_none() && !problem.attitude.is_angles() {
+        by_angles.set_attitude(SpatialAttitude::RollPitchYaw);
     }
+    let motion = with_system!(&System::new(&by_angles), system => {
+        follow(&by_angles, system, monitor)
+    });
+    with_system!(&System::new(problem), system => finish(problem, system, &motion, began))
 }
 
-/// Works its way through one of two descriptions of the same problem and writes the plan in the
-/// other.
-fn run<Sp: Space>(
-    [(by_angles, steered), (problem, system)]: [(&Problem, &FreeFloating<Sp>); 2],
+/// Chooses the accelerations step by step.
+fn follow<Sp: Space>(
+    problem: &Problem,
+    system: &FreeFloating<Sp>,
     monitor: &mut dyn FnMut(&Event<'_>) -> Control,
-    began: time::Instant,
-) -> Result<Plan, PlanError> {
+) -> Motion {
     let h = duration(problem) / STEPS as f64;
-    let mut stepper = Stepper::new(by_angles, steered);
+    let mut stepper = Stepper::new(problem, system);
     let mut motion = Motion::new(problem, h);
-    let mut stopped = false;
     for k in 0..STEPS {
         let event = Event::Step {
             step: k + 1,
             of: STEPS,
         };
-        stopped |= monitor(&event) == Control::Stop;
+        motion.stopped |= monitor(&event) == Control::Stop;
         let state = motion.last();
-        let a = if stopped {
+        let a = if motion.stopped {
             // Bring the joints to rest as they are.
             state.dq.iter().map(|rate| -rate / h).collect()
         } else {
@@ -99,8 +92,18 @@ fn run<Sp: Space>(
         let next = stepper.advance(state, &a, h);
         motion.push(a, next);
     }
-    let mut plan = assemble(problem, system, Method::AccelerationQp, &motion, began)?;
-    if stopped {
+    motion
+}
+
+/// The plan of the motion that was found.
+fn finish<Sp: Space>(
+    problem: &Problem,
+    system: &FreeFloating<Sp>,
+    motion: &Motion,
+    began: time::Instant,
+) -> Result<Plan, PlanError> {
+    let mut plan = assemble(problem, system, Method::AccelerationQp, motion, began)?;
+    if motion.stopped {
         plan.status = Status::Interrupted;
         plan.diagnosis = None;
     } else {
@@ -286,6 +289,8 @@ struct Motion {
     breakpoints: Vec<f64>,
     states: Vec<State>,
     accelerations: Vec<Vec<f64>>,
+    /// Whether the monitor stopped the planner.
+    stopped: bool,
 }
 
 impl Motion {
@@ -300,6 +305,7 @@ impl Motion {
             breakpoints: (0..=STEPS).map(|k| k as f64 * h).collect(),
             states: vec![start],
             accelerations: Vec::new(),
+            stopped: false,
         }
     }
 

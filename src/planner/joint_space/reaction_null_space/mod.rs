@@ -18,7 +18,7 @@ use crate::dynamics::space::Space;
 use crate::dynamics::{Data, JointKind, Tree};
 use crate::planner::{Method, Plan, PlanError};
 use crate::problem::{Problem, ProblemError};
-use crate::system::{FreeFloating, quintic};
+use crate::system::{FreeFloating, System, quintic, with_system};
 use path::{Leg, distance};
 use search::{End, Search};
 use std::cell::RefCell;
@@ -50,10 +50,7 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
                 .into(),
         }));
     }
-    match FreeFloating::planar(problem) {
-        Some(planar) => run(problem, &planar, began),
-        None => run(problem, &FreeFloating::spatial(problem), began),
-    }
+    with_system!(&System::new(problem), system => run(problem, system, began))
 }
 
 fn run<Sp: Space>(

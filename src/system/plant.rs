@@ -1,0 +1,74 @@
+//! What moves: the robot on its free base, with the momentum that it started with.
+
+use super::drift::Drift;
+use crate::autodiff::Scalar;
+use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::{Space, Vector};
+use crate::dynamics::{Data, Tree};
+use crate::problem::Problem;
+
+/// The dynamics behind the problem; immutable.
+#[derive(Debug, Clone)]
+pub(crate) struct Plant<Sp: Space> {
+    pub tree: Tree<Sp>,
+    pub attitude: Sp::Attitude,
+    pub drift: Drift<Sp>,
+    /// ζ(t₀), m.
+    pub start_position: Sp::Linear<f64>,
+}
+
+impl<Sp: Space> Plant<Sp> {
+    pub fn new(problem: &Problem, tree: Tree<Sp>, attitude: Sp::Attitude) -> Self {
+        let mut data = Data::<Sp, f64>::new(&tree);
+        tree.kinematics(&problem.task.initial_joints, &mut data);
+        tree.momentum(&mut data);
+        Self {
+            start_position: attitude.base_position(attitude.start(), &data.system_center),
+            drift: Drift::new(&problem.task.initial_momentum, tree.total_mass()),
+            attitude,
+            tree,
+        }
+    }
+
+    /// Number of joints n.
+    pub fn joints(&self) -> usize {
+        self.tree.joint_count()
+    }
+
+    /// Number of attitude parameters.
+    pub fn parameters(&self) -> usize {
+        self.attitude.count()
+    }
+
+    /// Number of states: η, θ, θ̇.
+    pub fn states(&self) -> usize {
+        self.parameters() + 2 * self.joints()
+    }
+
+    /// The base's angular velocity for the joint rates and the system's momentum, into `data`;
+    /// needs [`Tree::momentum`].
+    pub fn base_rate<S: Scalar>(&self, eta: &[S], dtheta: &[S], data: &mut Data<Sp, S>) {
+        self.tree.base_rate(dtheta, data);
+        self.drift.tumble(self.attitude, eta, data);
+    }
+
+    /// ζ, `t` seconds after t₀, m. Needs [`Tree::momentum`].
+    pub fn base_position<S: Scalar>(&self, eta: &[S], t: S, data: &Data<Sp, S>) -> Sp::Linear<S> {
+        let mut position = self.attitude.base_position(eta, &data.system_center);
+        self.drift.carry(t, position.components_mut());
+        position
+    }
+
+    /// The rates that limits and costs on the base are about: η̇ where η are angles, else ω₀.
+    pub fn limited_rates<'a, S: Scalar>(
+        &self,
+        eta_rates: &'a [S],
+        omega: &'a Sp::Angular<S>,
+    ) -> &'a [S] {
+        if self.attitude.is_angles() {
+            eta_rates
+        } else {
+            omega.components()
+        }
+    }
+}
