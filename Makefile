@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test test-ipopt-3.14 test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test test-ipopt-3.14 test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -46,6 +46,9 @@ lint: ## check the formatting and run clippy, warnings being errors
 
 doc: ## build the API documentation
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --release --locked
+
+import-circles: ## print the circles of files that import each other
+	scripts/import-circles.sh
 
 urdf-real: ## plan motions of real robots from their unedited URDF files
 	scripts/urdf-real.sh
