@@ -5,6 +5,7 @@ pub mod cli;
 pub mod collocation;
 pub mod config;
 pub mod dynamics;
+pub mod integrate;
 pub mod nlp;
 pub mod ocp;
 pub mod planner;
