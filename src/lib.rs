@@ -6,6 +6,7 @@ pub mod collocation;
 pub mod config;
 pub mod dynamics;
 pub mod integrate;
+mod largest;
 pub mod nlp;
 pub mod ocp;
 pub mod planner;
