@@ -1,7 +1,6 @@
-//! The optimal control problem as a trait.
+//! What there is to decide in an optimal control problem, and within which bounds.
 
-use super::{Interval, PointDerivatives};
-use crate::autodiff::Scalar;
+use super::Interval;
 
 /// A named quantity with its bounds.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,97 +64,5 @@ impl Formulation {
     /// Fractions of the duration at which the mesh needs a breakpoint, rising.
     pub fn way_point_fractions(&self) -> Vec<f64> {
         self.way_points.iter().map(|point| point.fraction).collect()
-    }
-}
-
-/// One instant on the path.
-#[derive(Debug, Clone, Copy)]
-pub struct Point<'a, S> {
-    /// States, in the order of [`Formulation::states`].
-    pub x: &'a [S],
-    /// Controls.
-    pub u: &'a [S],
-    /// Time, s.
-    pub t: S,
-}
-
-/// Both ends of the path.
-#[derive(Debug, Clone, Copy)]
-pub struct Ends<'a, S> {
-    /// States at t₀.
-    pub initial: &'a [S],
-    /// States at t_f.
-    pub terminal: &'a [S],
-    /// Duration t_f − t₀, s.
-    pub duration: S,
-}
-
-/// The instant of a way-point.
-#[derive(Debug, Clone, Copy)]
-pub struct Passage<'a, S> {
-    /// Which one, in the order of [`Formulation::way_points`].
-    pub way_point: usize,
-    /// States there.
-    pub x: &'a [S],
-    /// Time there, s.
-    pub t: S,
-}
-
-/// An optimal control problem in Bolza form, eq. (17) and (18).
-///
-/// Minimise Φ(ends) + ∫ℒ dt subject to ẋ = f, path and boundary constraints and bounds. All
-/// functions are generic over [`Scalar`], from which values, gradients and Hessians follow; they
-/// must be smooth where they are evaluated. Sparsity is found by sampling derivatives at random
-/// points of the bounds' box; a problem with branches says so by [`Ocp::has_branches`].
-pub trait Ocp: Sync {
-    /// Mutable scratch for one number type, so that nothing is allocated in the solve.
-    type Scratch<S: Scalar>: Send;
-
-    /// Quantities and bounds. Called at set-up only.
-    fn formulation(&self) -> Formulation;
-
-    /// Fresh scratch.
-    fn scratch<S: Scalar>(&self) -> Self::Scratch<S>;
-
-    /// Writes f into `rates` and the path rows C into `path`; returns the running cost ℒ.
-    fn continuous<S: Scalar>(
-        &self,
-        point: Point<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rates: &mut [S],
-        path: &mut [S],
-    ) -> S;
-
-    /// Writes the boundary rows E into `rows`; returns the terminal cost Φ.
-    fn boundary<S: Scalar>(
-        &self,
-        ends: Ends<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rows: &mut [S],
-    ) -> S {
-        let _ = (ends, scratch, rows);
-        S::zero()
-    }
-
-    /// Writes the rows of a way-point into `rows`.
-    fn way_point<S: Scalar>(
-        &self,
-        passage: Passage<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rows: &mut [S],
-    ) {
-        let _ = (passage, scratch, rows);
-    }
-
-    /// Derivatives of [`Ocp::continuous`] by the problem's own structure, where it has any that
-    /// beat dual numbers swept over the whole function.
-    fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
-        None
-    }
-
-    /// Whether derivatives may vanish in one region and not in another, so that sampling could
-    /// miss a nonzero. Every derivative is then kept in the sparsity pattern.
-    fn has_branches(&self) -> bool {
-        false
     }
 }

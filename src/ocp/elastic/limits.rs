@@ -1,11 +1,10 @@
-//! Limits that give way at a price: finds which limits of a problem cannot hold.
+//! Which bounds of a problem give way, and the problem without them.
 
-use super::elastic_derivatives::ElasticDerivatives;
-use super::{Ends, Formulation, Interval, Ocp, Passage, Point, PointDerivatives, Quantity};
-use crate::autodiff::Scalar;
+use crate::ocp::{Formulation, Interval, Ocp, Quantity};
 
 /// One bound that may give way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Limited {
     /// The bounds of a state along the path.
     State(usize),
@@ -41,22 +40,52 @@ pub struct LimitGroup {
 /// only and the transcription needs no special case.
 #[derive(Debug)]
 pub struct Elastic<'a, O> {
-    inner: &'a O,
+    pub(super) inner: &'a O,
     pub(super) groups: Vec<LimitGroup>,
     pub(super) regularization: f64,
     pub(super) base: Formulation,
-    /// Path rows beyond the inner ones: (bound, group, interval).
-    pub(super) path: Vec<(Limited, usize, Interval)>,
-    boundary: Vec<(End, usize, Interval)>,
-    /// The same of each way-point.
-    way_points: Vec<Vec<(End, usize, Interval)>>,
+    /// Elastic bounds along the path: path rows beyond the inner ones.
+    pub(super) path: Vec<ElasticBound<OnPath>>,
+    /// Those at t_f: boundary rows beyond the inner ones.
+    pub(super) boundary: Vec<ElasticBound<AtInstant>>,
+    /// Those of each way-point: rows of it beyond the inner ones.
+    pub(super) way_points: Vec<Vec<ElasticBound<AtInstant>>>,
 }
 
-/// What an elastic row of the ends or of a way-point bounds.
+/// A bound that has become two rows, value − e·scale and value + e·scale.
 #[derive(Debug, Clone, Copy)]
-enum End {
+pub(super) struct ElasticBound<Q> {
+    /// The bounded quantity.
+    pub quantity: Q,
+    /// The group whose amount e it takes.
+    pub group: usize,
+    pub bounds: Interval,
+}
+
+/// A quantity bounded along the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum OnPath {
+    State(usize),
+    Control(usize),
+    Row(usize),
+}
+
+/// A quantity bounded at t_f or at a way-point.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum AtInstant {
     State(usize),
     Row(usize),
+}
+
+impl<Q> ElasticBound<Q> {
+    /// Takes the bounds out of `from`, which is free from then on.
+    fn take(quantity: Q, group: usize, from: &mut Interval) -> Self {
+        Self {
+            quantity,
+            group,
+            bounds: std::mem::replace(from, Interval::FREE),
+        }
+    }
 }
 
 impl<'a, O: Ocp> Elastic<'a, O> {
@@ -66,44 +95,48 @@ impl<'a, O: Ocp> Elastic<'a, O> {
         let mut path = Vec::new();
         let mut boundary = Vec::new();
         let mut way_points = vec![Vec::new(); base.way_points.len()];
-        for (g, group) in groups.iter().enumerate() {
-            for &member in &group.members {
-                let freed = match member {
+        for (group, limit) in groups.iter().enumerate() {
+            for &member in &limit.members {
+                match member {
                     Limited::State(i) => {
+                        let quantity = AtInstant::State(i);
+                        let from = &mut base.states[i].bounds;
                         // The path rows do not reach t_f, which is a node but no point.
-                        let bounds = base.states[i].bounds;
                         if !base.terminal[i].is_fixed() {
-                            boundary.push((End::State(i), g, bounds));
+                            let bounds = *from;
+                            boundary.push(ElasticBound {
+                                quantity,
+                                group,
+                                bounds,
+                            });
                         }
-                        &mut base.states[i].bounds
+                        path.push(ElasticBound::take(OnPath::State(i), group, from));
+                    }
+                    Limited::Control(i) => {
+                        let from = &mut base.controls[i].bounds;
+                        path.push(ElasticBound::take(OnPath::Control(i), group, from));
+                    }
+                    Limited::Path(i) => {
+                        let from = &mut base.path[i].bounds;
+                        path.push(ElasticBound::take(OnPath::Row(i), group, from));
                     }
                     Limited::Terminal(i) => {
-                        boundary.push((End::State(i), g, base.terminal[i]));
-                        base.terminal[i] = Interval::FREE;
-                        continue;
+                        let from = &mut base.terminal[i];
+                        boundary.push(ElasticBound::take(AtInstant::State(i), group, from));
                     }
                     Limited::Boundary(b) => {
-                        let bounds =
-                            std::mem::replace(&mut base.boundary[b].bounds, Interval::FREE);
-                        boundary.push((End::Row(b), g, bounds));
-                        continue;
+                        let from = &mut base.boundary[b].bounds;
+                        boundary.push(ElasticBound::take(AtInstant::Row(b), group, from));
                     }
                     Limited::Passed(w, i) => {
-                        let at = &mut base.way_points[w].states[i];
-                        let bounds = std::mem::replace(at, Interval::FREE);
-                        way_points[w].push((End::State(i), g, bounds));
-                        continue;
+                        let from = &mut base.way_points[w].states[i];
+                        way_points[w].push(ElasticBound::take(AtInstant::State(i), group, from));
                     }
                     Limited::WayPoint(w, r) => {
-                        let at = &mut base.way_points[w].rows[r].bounds;
-                        let bounds = std::mem::replace(at, Interval::FREE);
-                        way_points[w].push((End::Row(r), g, bounds));
-                        continue;
+                        let from = &mut base.way_points[w].rows[r].bounds;
+                        way_points[w].push(ElasticBound::take(AtInstant::Row(r), group, from));
                     }
-                    Limited::Control(i) => &mut base.controls[i].bounds,
-                    Limited::Path(i) => &mut base.path[i].bounds,
-                };
-                path.push((member, g, std::mem::replace(freed, Interval::FREE)));
+                }
             }
         }
         Self {
@@ -129,7 +162,7 @@ impl<'a, O: Ocp> Elastic<'a, O> {
     }
 
     /// The two rows of one elastic bound: value − e·scale and value + e·scale.
-    fn rows(&self, name: &str, group: usize, bounds: Interval) -> [Quantity; 2] {
+    pub(super) fn rows(&self, name: &str, group: usize, bounds: Interval) -> [Quantity; 2] {
         let limit = &self.groups[group].name;
         [
             Quantity::new(
@@ -141,171 +174,5 @@ impl<'a, O: Ocp> Elastic<'a, O> {
                 Interval::new(bounds.lower, f64::INFINITY),
             ),
         ]
-    }
-}
-
-impl<O: Ocp> Elastic<'_, O> {
-    /// The two rows of each of `bounds`, from the states at that instant and the inner rows.
-    fn bound_ends<S: Scalar>(
-        &self,
-        bounds: &[(End, usize, Interval)],
-        x: &[S],
-        amounts: &[S],
-        inner_rows: &[S],
-        elastic_rows: &mut [S],
-    ) {
-        for (rows, &(end, group, _)) in elastic_rows.chunks_exact_mut(2).zip(bounds) {
-            let value = match end {
-                End::State(i) => x[i],
-                End::Row(row) => inner_rows[row],
-            };
-            let room = amounts[group] * self.groups[group].scale;
-            rows[0] = value - room;
-            rows[1] = value + room;
-        }
-    }
-}
-
-/// Scratch of [`Elastic`].
-#[derive(Debug)]
-pub struct ElasticScratch<S, I> {
-    inner: I,
-    path: Vec<S>,
-}
-
-impl<O: Ocp> Ocp for Elastic<'_, O> {
-    type Scratch<S: Scalar> = ElasticScratch<S, O::Scratch<S>>;
-
-    fn formulation(&self) -> Formulation {
-        let mut formulation = self.base.clone();
-        for &(member, group, bounds) in &self.path {
-            let name = match member {
-                Limited::State(i) | Limited::Terminal(i) => &self.base.states[i].name,
-                Limited::Control(i) => &self.base.controls[i].name,
-                Limited::Path(i) => &self.base.path[i].name,
-                _ => unreachable!("bounds at one instant are not path rows"),
-            };
-            formulation.path.extend(self.rows(name, group, bounds));
-        }
-        for &(end, group, bounds) in &self.boundary {
-            let name = match end {
-                End::State(i) => &self.base.states[i].name,
-                End::Row(b) => &self.base.boundary[b].name,
-            };
-            formulation.boundary.extend(self.rows(name, group, bounds));
-        }
-        for (w, elastic) in self.way_points.iter().enumerate() {
-            for &(end, group, bounds) in elastic {
-                let name = match end {
-                    End::State(i) => &self.base.states[i].name,
-                    End::Row(r) => &self.base.way_points[w].rows[r].name,
-                };
-                let rows = self.rows(name, group, bounds);
-                formulation.way_points[w].rows.extend(rows);
-            }
-        }
-        for point in &mut formulation.way_points {
-            let amounts = self.groups.len();
-            point
-                .states
-                .extend(std::iter::repeat_n(Interval::FREE, amounts));
-        }
-        for group in &self.groups {
-            let amount = Interval::new(0.0, f64::INFINITY);
-            formulation
-                .states
-                .push(Quantity::new(format!("excess of {}", group.name), amount));
-            formulation.initial.push(Interval::FREE);
-            formulation.terminal.push(Interval::FREE);
-        }
-        formulation
-    }
-
-    fn scratch<S: Scalar>(&self) -> Self::Scratch<S> {
-        ElasticScratch {
-            inner: self.inner.scratch(),
-            path: vec![S::zero(); self.base.path.len()],
-        }
-    }
-
-    fn continuous<S: Scalar>(
-        &self,
-        point: Point<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rates: &mut [S],
-        path: &mut [S],
-    ) -> S {
-        let n = self.base.states.len();
-        let (x, amounts) = point.x.split_at(n);
-        let (rates, still) = rates.split_at_mut(n);
-        let cost = self.inner.continuous(
-            Point { x, ..point },
-            &mut scratch.inner,
-            rates,
-            &mut scratch.path,
-        );
-        still.fill(S::zero());
-        let own = scratch.path.len();
-        path[..own].copy_from_slice(&scratch.path);
-        for (rows, &(member, group, _)) in path[own..].chunks_exact_mut(2).zip(&self.path) {
-            let value = match member {
-                Limited::State(i) | Limited::Terminal(i) => x[i],
-                Limited::Control(i) => point.u[i],
-                Limited::Path(i) => scratch.path[i],
-                _ => unreachable!("bounds at one instant are not path rows"),
-            };
-            let room = amounts[group] * self.groups[group].scale;
-            rows[0] = value - room;
-            rows[1] = value + room;
-        }
-        cost * self.regularization
-    }
-
-    fn boundary<S: Scalar>(
-        &self,
-        ends: Ends<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rows: &mut [S],
-    ) -> S {
-        let n = self.base.states.len();
-        let (x, amounts) = ends.terminal.split_at(n);
-        let (inner_rows, elastic_rows) = rows.split_at_mut(self.base.boundary.len());
-        let inner_ends = Ends {
-            initial: &ends.initial[..n],
-            terminal: x,
-            duration: ends.duration,
-        };
-        let mut cost = self
-            .inner
-            .boundary(inner_ends, &mut scratch.inner, inner_rows)
-            * self.regularization;
-        self.bound_ends(&self.boundary, x, amounts, inner_rows, elastic_rows);
-        for &amount in amounts {
-            cost += amount;
-        }
-        cost
-    }
-
-    fn way_point<S: Scalar>(
-        &self,
-        passage: Passage<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rows: &mut [S],
-    ) {
-        let w = passage.way_point;
-        let (x, amounts) = passage.x.split_at(self.base.states.len());
-        let (inner_rows, elastic_rows) = rows.split_at_mut(self.base.way_points[w].rows.len());
-        let inner = Passage { x, ..passage };
-        self.inner.way_point(inner, &mut scratch.inner, inner_rows);
-        self.bound_ends(&self.way_points[w], x, amounts, inner_rows, elastic_rows);
-    }
-
-    fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
-        let inner = self.inner.derivatives()?;
-        Some(Box::new(ElasticDerivatives::new(self, inner)))
-    }
-
-    fn has_branches(&self) -> bool {
-        self.inner.has_branches()
     }
 }

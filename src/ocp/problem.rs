@@ -1,0 +1,63 @@
+//! The optimal control problem as a trait.
+
+use super::{Ends, Formulation, InteriorPoint, Point, PointDerivatives};
+use crate::autodiff::Scalar;
+
+/// An optimal control problem in Bolza form, eq. (17) and (18).
+///
+/// Minimise Φ(ends) + ∫ℒ dt subject to ẋ = f, path and boundary constraints and bounds. All
+/// functions are generic over [`Scalar`], from which values, gradients and Hessians follow; they
+/// must be smooth where they are evaluated. Sparsity is found by sampling derivatives at random
+/// points of the bounds' box; a problem with branches says so by [`Ocp::has_branches`].
+pub trait Ocp: Sync {
+    /// Mutable scratch for one number type, so that nothing is allocated in the solve.
+    type Scratch<S: Scalar>: Send;
+
+    /// Quantities and bounds. Called at set-up only.
+    fn formulation(&self) -> Formulation;
+
+    /// Fresh scratch.
+    fn scratch<S: Scalar>(&self) -> Self::Scratch<S>;
+
+    /// Writes f into `rates` and the path rows C into `path`; returns the running cost ℒ.
+    fn continuous<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rates: &mut [S],
+        path: &mut [S],
+    ) -> S;
+
+    /// Writes the boundary rows E into `rows`; returns the terminal cost Φ.
+    fn boundary<S: Scalar>(
+        &self,
+        ends: Ends<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rows: &mut [S],
+    ) -> S {
+        let _ = (ends, scratch, rows);
+        S::zero()
+    }
+
+    /// Writes the rows of a way-point into `rows`.
+    fn way_point<S: Scalar>(
+        &self,
+        point: InteriorPoint<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        rows: &mut [S],
+    ) {
+        let _ = (point, scratch, rows);
+    }
+
+    /// Derivatives of [`Ocp::continuous`] by the problem's own structure, where it has any that
+    /// beat dual numbers swept over the whole function.
+    fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
+        None
+    }
+
+    /// Whether derivatives may vanish in one region and not in another, so that sampling could
+    /// miss a nonzero. Every derivative is then kept in the sparsity pattern.
+    fn has_branches(&self) -> bool {
+        false
+    }
+}
