@@ -5,6 +5,8 @@ pub mod cli;
 pub mod collocation;
 pub mod config;
 pub mod dynamics;
+pub mod integrate;
+mod largest;
 pub mod nlp;
 pub mod ocp;
 pub mod planner;

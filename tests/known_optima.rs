@@ -2,7 +2,7 @@
 
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::nlp::{self, Control};
-use ffsm_ipopt::ocp::{Ends, Formulation, Interval, Ocp, Passage, Point, Quantity, WayPoint};
+use ffsm_ipopt::ocp::{Ends, Formulation, InteriorPoint, Interval, Ocp, Point, Quantity, WayPoint};
 use ffsm_ipopt::refine::{Bounded, Method, Outcome, Refinement, Settings};
 use ffsm_ipopt::transcription::Patterns;
 
@@ -91,8 +91,8 @@ impl Ocp for Integrator {
         p.u[0].square() * self.weight
     }
 
-    fn way_point<S: Scalar>(&self, passage: Passage<'_, S>, _: &mut (), rows: &mut [S]) {
-        rows[0] = passage.x[0] * 2.0;
+    fn way_point<S: Scalar>(&self, point: InteriorPoint<'_, S>, _: &mut (), rows: &mut [S]) {
+        rows[0] = point.x[0] * 2.0;
     }
 
     fn boundary<S: Scalar>(&self, ends: Ends<'_, S>, _: &mut (), _: &mut [S]) -> S {

@@ -12,7 +12,6 @@ use ffsm_ipopt::dynamics::{Data, Model, Tree};
 use ffsm_ipopt::nalgebra::Vector3;
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::transcription::Discretization;
-use ffsm_ipopt::verify::integrate::{DormandPrince, Motion, Stuck};
 use ffsm_ipopt::verify::{Verification, VerifyError, verify};
 use problems::two_link;
 use std::f64::consts::PI;
@@ -283,36 +282,4 @@ fn misuse_is_explained() {
             .contains("the full dynamics stops at t = "),
         "{error}"
     );
-}
-
-/// ẏ = y² with the solution 1/(1 − t), which ends at t = 1.
-struct Blowup;
-
-impl Motion for Blowup {
-    type Error = ();
-    fn rate(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), ()> {
-        dy[0] = y[0] * y[0];
-        Ok(())
-    }
-}
-
-#[test]
-fn the_integrator_meets_its_tolerance_and_says_where_it_is_stuck() {
-    let mut y = [1.0];
-    let mut integrator = DormandPrince::new(1, 1e-10, 1e-12, 100_000);
-    integrator
-        .advance(&mut Blowup, [0.0, 0.5], &mut y, true, |_, _| {})
-        .unwrap();
-    integrator
-        .advance(&mut Blowup, [0.5, 0.9], &mut y, false, |_, _| {})
-        .unwrap();
-    assert!((y[0] / 10.0 - 1.0).abs() < 1e-8, "{y:?}");
-    assert!(integrator.taken() < 1000);
-    let stuck = integrator
-        .advance(&mut Blowup, [0.9, 2.0], &mut y, false, |_, _| {})
-        .unwrap_err();
-    let Stuck::Underflow(t) = stuck else {
-        panic!("{stuck:?}")
-    };
-    assert!((t - 1.0).abs() < 1e-6, "{t}");
 }

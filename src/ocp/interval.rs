@@ -55,8 +55,11 @@ impl Interval {
         }
     }
 
-    /// How far `value` lies outside; 0 inside.
+    /// How far `value` lies outside; 0 inside. Infinite for NaN, which is within no bounds.
     pub fn violation(&self, value: f64) -> f64 {
+        if value.is_nan() {
+            return f64::INFINITY;
+        }
         (self.lower - value).max(value - self.upper).max(0.0)
     }
 

@@ -4,11 +4,14 @@
 
 mod derivatives;
 mod elastic;
-mod elastic_derivatives;
+mod formulation;
 mod interval;
+mod point;
 mod problem;
 
 pub use derivatives::PointDerivatives;
 pub use elastic::{Elastic, LimitGroup, Limited};
+pub use formulation::{Formulation, Quantity, WayPoint};
 pub use interval::Interval;
-pub use problem::{Ends, Formulation, Ocp, Passage, Point, Quantity, WayPoint};
+pub use point::{Ends, InteriorPoint, Point};
+pub use problem::Ocp;

@@ -1,13 +1,6 @@
 //! An axis as asked for; its range is found from the data.
 
-use super::ruler::{Ruler, Tick};
-
-/// How values are laid along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scale {
-    Linear,
-    Log,
-}
+use super::ruler::{Ruler, Scale, Tick};
 
 /// A labelled axis. The label carries the unit: "Time (s)".
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +46,15 @@ impl Axis {
         };
         self.ticks = ticks.iter().map(tick).collect();
         self
+    }
+
+    /// The range asked for, or the one that holds `values`, widened by the part `margin` of it at
+    /// both ends.
+    pub(super) fn ruler(&self, values: impl Iterator<Item = f64>, margin: f64) -> Ruler {
+        match self.range {
+            Some(range) => Ruler::new(self.scale, range),
+            None => Ruler::fit(self.scale, values, margin),
+        }
     }
 
     /// Ticks on `ruler`, at most about `most` of them with labels unless they were given.

@@ -2,6 +2,7 @@
 
 /// A colour of the palette of Okabe and Ito (Color Universal Design, 2008), or a grey.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Colour {
     /// #0072B2
     Blue,

@@ -1,11 +1,10 @@
 //! A chart on the canvas.
 
-use super::axis::Scale;
 use super::canvas::{Anchor, Canvas};
 use super::legend::Legend;
 use super::marks::{BAND, mark};
 use super::raster::text_width;
-use super::ruler::{Ruler, Tick};
+use super::ruler::{Ruler, Scale, Tick};
 use super::series::Points;
 use super::{Chart, Colour, Series, Shape, Stroke};
 
@@ -90,7 +89,7 @@ impl Chart {
     /// The range of the data, with the bounds where that leaves the data their part.
     fn y_ruler(&self) -> Ruler {
         let values = self.y_values();
-        let data = Ruler::fit(&self.y, values.iter().copied(), 0.06);
+        let data = self.y.ruler(values.iter().copied(), 0.06);
         let bounds = self.bounds.iter().flat_map(|bounds| bounds.values.iter());
         // Nearest first, as many as fit.
         let span = |ruler: &Ruler| match self.y.scale {
@@ -98,13 +97,13 @@ impl Chart {
             Scale::Log => (ruler.high / ruler.low).log10(),
         };
         let mut near: Vec<f64> = bounds.copied().collect();
-        let with = |bound: f64| Ruler::fit(&self.y, values.iter().copied().chain([bound]), 0.06);
+        let with = |bound: f64| self.y.ruler(values.iter().copied().chain([bound]), 0.06);
         near.sort_by(|a, b| span(&with(*a)).total_cmp(&span(&with(*b))));
         let mut held = values.clone();
         let mut best = data;
         for bound in near {
             held.push(bound);
-            let wide = Ruler::fit(&self.y, held.iter().copied(), 0.06);
+            let wide = self.y.ruler(held.iter().copied(), 0.06);
             if !values.is_empty() && span(&data) / span(&wide) < KEPT {
                 held.pop();
             } else {
@@ -128,7 +127,7 @@ impl<'a> Layout<'a> {
             } else {
                 0.05
             };
-        let mut x = Ruler::fit(&chart.x, chart.x_values().into_iter(), margin);
+        let mut x = chart.x.ruler(chart.x_values().into_iter(), margin);
         let mut y = chart.y_ruler();
         if chart.equal_scale {
             let unit = ((x.high - x.low) / width).max((y.high - y.low) / chart.height);

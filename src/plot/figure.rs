@@ -6,6 +6,7 @@ use super::draw::Layout;
 
 /// Width of a figure on a two-column page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Width {
     /// One column, 252 points (89 mm).
     Column,

@@ -10,6 +10,7 @@ use std::sync::{Arc, LazyLock};
 
 /// An SVG that cannot be turned into a PNG.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlotError {
     /// It is no SVG.
     #[error("the figure cannot be read as SVG: {0}")]

@@ -1,6 +1,11 @@
-//! An axis with its range: places of values, ticks and their labels.
+//! The scale along an axis: range, places of values, ticks and their labels.
 
-use super::axis::{Axis, Scale};
+/// How values are laid along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scale {
+    Linear,
+    Log,
+}
 
 /// A tick; an empty label for a small one.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,7 +14,7 @@ pub(super) struct Tick {
     pub label: String,
 }
 
-/// An axis with its range.
+/// A scale with its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Ruler {
     scale: Scale,
@@ -18,12 +23,13 @@ pub(super) struct Ruler {
 }
 
 impl Ruler {
+    /// From `low` to `high`.
+    pub fn new(scale: Scale, [low, high]: [f64; 2]) -> Self {
+        Self { scale, low, high }
+    }
+
     /// The range that holds `values`, widened by the part `margin` of it at both ends.
-    pub fn fit(axis: &Axis, values: impl Iterator<Item = f64>, margin: f64) -> Self {
-        let scale = axis.scale;
-        if let Some([low, high]) = axis.range {
-            return Self { scale, low, high };
-        }
+    pub fn fit(scale: Scale, values: impl Iterator<Item = f64>, margin: f64) -> Self {
         let fits = |v: &f64| v.is_finite() && (scale == Scale::Linear || *v > 0.0);
         let (mut low, mut high) = values
             .filter(fits)
@@ -198,34 +204,33 @@ mod tests {
 
     #[test]
     fn linear_ticks_are_round() {
-        let axis = Axis::linear("t").range(-0.3, 1.0);
-        let ruler = Ruler::fit(&axis, std::iter::empty(), 0.0);
+        let ruler = Ruler::new(Scale::Linear, [-0.3, 1.0]);
         assert_eq!(labels(&ruler, 4), ["0", "0.5", "1.0"]);
-        let small = Ruler::fit(&Axis::linear("e"), [0.0, 3e-6].into_iter(), 0.0);
+        let small = Ruler::fit(Scale::Linear, [0.0, 3e-6].into_iter(), 0.0);
         assert_eq!(labels(&small, 3), ["0", "1·10⁻⁶", "2·10⁻⁶", "3·10⁻⁶"]);
-        let negative = Ruler::fit(&Axis::linear("y"), [-20.0, 0.0].into_iter(), 0.0);
+        let negative = Ruler::fit(Scale::Linear, [-20.0, 0.0].into_iter(), 0.0);
         assert_eq!(labels(&negative, 2), ["−20", "−10", "0"]);
     }
 
     #[test]
     fn decades_are_labelled() {
-        let ruler = Ruler::fit(&Axis::log("e"), [1e-6, 1e-2].into_iter(), 0.0);
+        let ruler = Ruler::fit(Scale::Log, [1e-6, 1e-2].into_iter(), 0.0);
         let shown = labels(&ruler, 8);
         assert_eq!(shown, ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"]);
-        let narrow = Ruler::fit(&Axis::log("n"), [20.0, 90.0].into_iter(), 0.0);
+        let narrow = Ruler::fit(Scale::Log, [20.0, 90.0].into_iter(), 0.0);
         assert_eq!(labels(&narrow, 8), ["20", "50", "100"]);
     }
 
     #[test]
     fn a_log_axis_has_no_place_for_zero() {
-        let ruler = Ruler::fit(&Axis::log("e"), [0.0, 1e-3, 1e-1].into_iter(), 0.0);
+        let ruler = Ruler::fit(Scale::Log, [0.0, 1e-3, 1e-1].into_iter(), 0.0);
         assert_eq!(ruler.part(0.0), None);
         assert!(ruler.low > 1e-4 && (ruler.part(1e-2).unwrap() - 0.5).abs() < 1e-12);
     }
 
     #[test]
     fn flat_data_gets_a_range() {
-        let ruler = Ruler::fit(&Axis::linear("y"), [2.0, 2.0].into_iter(), 0.0);
+        let ruler = Ruler::fit(Scale::Linear, [2.0, 2.0].into_iter(), 0.0);
         assert_eq!([ruler.low, ruler.high], [1.0, 3.0]);
     }
 }

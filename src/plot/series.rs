@@ -4,6 +4,7 @@ use super::Colour;
 
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stroke {
     /// A thin line without gaps.
     Solid,
@@ -17,6 +18,7 @@ pub enum Stroke {
 
 /// A mark at every point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Marker {
     /// A filled circle.
     Disc,

@@ -4,6 +4,7 @@ use super::{Colour, Stroke};
 
 /// A shape in the units of the axes.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Shape {
     /// A closed outline, filled where a colour is given.
     Polygon {

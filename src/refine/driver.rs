@@ -3,10 +3,10 @@
 use super::transfer::{Duals, resample, saved_layout};
 use super::violation::worst_of_each;
 use super::{
-    Bounded, Method, Record, Settings, Violation, midpoint_errors, quadrature_error, refine,
-    violations,
+    Assessment, Bounded, Errors, Record, Refined, RefinementLaw, Settings, Verdict, Violation,
+    midpoint_errors, quadrature_error, violations,
 };
-use crate::collocation::Mesh;
+use crate::largest::largest;
 use crate::nlp::{self, Control, Iterate, Progress, Statistics, Status, ipopt};
 use crate::ocp::Ocp;
 use crate::transcription::{Discretization, Layout, Patterns, Transcription};
@@ -21,6 +21,7 @@ const FAR: f64 = 0.05;
 
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub enum Event<'a> {
     /// A mesh iteration begins.
     Mesh {
@@ -47,35 +48,79 @@ pub struct Start {
 }
 
 /// Where the loop ended.
+///
+/// All but `discarded` and `statistics` belongs to one mesh iteration, that of the last of `records`.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Outcome {
-    /// The last trajectory.
+    /// The trajectory on the mesh that counts.
     pub trajectory: Discretization,
     /// Its primal and dual values.
     pub iterate: Iterate,
-    /// How the last solve ended.
+    /// How its solve ended.
     pub status: Status,
-    /// Objective of the last solve.
+    /// Its objective.
     pub objective: f64,
-    /// One record a mesh iteration.
+    /// One record a mesh iteration; the last is that of `trajectory`.
     pub records: Vec<Record>,
-    /// Whether the last solve succeeded with its largest error within the tolerance, and no bound is
-    /// far exceeded between the nodes.
+    /// Records of the mesh iterations after that one. They were tried for the sake of bounds that
+    /// are exceeded between the nodes, and did not converge.
+    pub discarded: Vec<Record>,
+    /// Whether the solve succeeded, the largest error is within the tolerance, and no bound is far
+    /// exceeded between the nodes. Never where an error or a bounded row is NaN. The last record's
+    /// [`Verdict`] says what is missing.
     pub converged: bool,
     /// The worst violation of every bound that is exceeded between the nodes by more than
     /// [`Settings::bound_tolerance`].
     pub violations: Vec<Violation>,
-    /// Times of all solves together.
+    /// Counts and times of all solves together, those of `discarded` included; barrier parameter
+    /// and infeasibilities are those of the solve that counts.
     pub statistics: Statistics,
 }
 
 impl Outcome {
-    /// Largest error (28) on the last mesh.
+    /// Largest error (28) of the trajectory; NaN where the problem's rates are NaN.
     pub fn max_error(&self) -> f64 {
         self.records
             .last()
             .map_or(f64::INFINITY, |record| record.max_error)
     }
+
+    /// This outcome, `later` being what came of the meshes after it.
+    fn preferred_to(self, later: Self) -> Self {
+        Self {
+            discarded: later.records[self.records.len()..].to_vec(),
+            statistics: Statistics {
+                barrier: self.statistics.barrier,
+                primal_infeasibility: self.statistics.primal_infeasibility,
+                dual_infeasibility: self.statistics.dual_infeasibility,
+                ..later.statistics
+            },
+            ..self
+        }
+    }
+}
+
+/// The solution of one programme.
+struct Solved {
+    trajectory: Discretization,
+    layout: Layout,
+    iterate: Iterate,
+    status: Status,
+    objective: f64,
+    nlp_iterations: u32,
+}
+
+/// What a solution is worth.
+struct Assessed {
+    errors: Errors,
+    /// Bounds exceeded between the nodes, by segments.
+    outside: Vec<Vec<Violation>>,
+    /// Those of `outside` that another mesh can mend.
+    removable: Vec<Vec<Violation>>,
+    verdict: Verdict,
+    /// Whether the largest error is within the tolerance.
+    accurate: bool,
 }
 
 /// One problem with its settings, ready to be solved on a sequence of meshes.
@@ -137,122 +182,182 @@ impl<O: Ocp> Refinement<'_, O> {
         start: &Start,
         monitor: &mut dyn FnMut(Event<'_>) -> Control,
     ) -> Result<Outcome, ipopt::IpoptError> {
+        let law = self.settings.law();
         let mut records: Vec<Record> = Vec::new();
         let mut statistics = Statistics::default();
         let mut trajectory = self.at_way_points(&start.trajectory);
-        let mut previous: Option<(Mesh, Layout, Iterate)> = None;
-        let mut within_before: Option<Outcome> = None;
+        let mut previous: Option<Solved> = None;
+        let mut converged: Option<Outcome> = None;
         loop {
             let began = Instant::now();
-            let mesh = trajectory.mesh.clone();
+            let iteration = records.len() + 1;
             let event = Event::Mesh {
-                iteration: records.len() + 1,
-                segments: mesh.segments(),
-                points: mesh.points(),
+                iteration,
+                segments: trajectory.mesh.segments(),
+                points: trajectory.mesh.points(),
             };
             let stopped = monitor(event) == Control::Stop;
-            let mut program = Transcription::new(self.ocp, self.patterns, mesh.clone());
-            let x = program.pack(&trajectory);
-            let mut settings = self.solver.clone();
-            let iterate = match (&previous, &start.iterate) {
-                (Some((old, layout, iterate)), _) => {
-                    settings.warm_start = Some(REFINED_BARRIER * settings.tolerance);
-                    Duals::new(old, layout, iterate).on(&mesh, program.layout(), x)
-                }
-                (None, Some(warm)) if settings.warm_start.is_some() => {
-                    match saved_layout(warm, program.layout()) {
-                        Some(old) if old == *program.layout() => Iterate { x, ..warm.clone() },
-                        Some(old) => Duals::new(&mesh, &old, warm).on(&mesh, program.layout(), x),
-                        None => Iterate::primal(x),
-                    }
-                }
-                _ => Iterate::primal(x),
-            };
-            if !iterate.has_multipliers(program.layout().rows()) {
-                settings.warm_start = None;
-            }
-            let mut solve = |settings: &nlp::Settings, iterate: &Iterate| {
-                let solution = ipopt::solve(&mut program, settings, iterate, &mut |progress| {
+            let mut program = Transcription::new(self.ocp, self.patterns, trajectory.mesh.clone());
+            let (settings, iterate) =
+                self.warm_start(&program, &trajectory, previous.as_ref(), start);
+            let solved =
+                self.solve(&mut program, settings, iterate, &mut statistics, &mut |p| {
                     if stopped {
                         Control::Stop
                     } else {
-                        monitor(Event::Solver(progress))
+                        monitor(Event::Solver(p))
                     }
-                });
-                if let Ok(solution) = &solution {
-                    statistics.add(&solution.statistics);
-                }
-                solution
-            };
-            let mut solution = solve(&settings, &iterate)?;
-            let mut nlp_iterations = solution.statistics.iterations;
-            let gave_up = !solution.status.is_solved() && solution.status != Status::Interrupted;
-            if gave_up && settings.warm_start.take().is_some() {
-                // Multipliers may mislead; the same trajectory without them has every chance of
-                // a cold start.
-                solution = solve(&settings, &Iterate::primal(iterate.x))?;
-                nlp_iterations += solution.statistics.iterations;
-            }
-            trajectory = program.unpack(&solution.iterate.x);
-            let errors = midpoint_errors(self.ocp, &trajectory);
-            let max_error = errors.max();
-            let usable = solution.status.is_solved();
-            let within = usable && max_error <= self.settings.tolerance;
-            let outside = violations(self.ocp, &trajectory);
-            let removable = self.removable(&outside);
-            let farthest = FAR.max(self.settings.bound_tolerance);
-            let held = removable.iter().flatten().all(|v| v.relative <= farthest);
-            let last = match self.settings.method {
-                Method::Adaptive => records.len() + 1 >= self.settings.max_iterations,
-                Method::Global => within,
-            };
-            let next = if !usable || last {
-                None
-            } else {
-                refine(self.settings, &trajectory, &errors, &removable)
-            };
-            let largest = outside.iter().flatten().map(|v| v.relative);
-            records.push(Record {
-                points: mesh.points(),
-                segments: mesh.segments(),
-                breakpoints: mesh.breakpoints().to_vec(),
-                quadrature_error: quadrature_error(self.ocp, &trajectory),
-                segment_errors: errors.by_segment,
-                max_error,
-                max_violation: largest.fold(0.0, f64::max),
-                objective: solution.objective,
-                nlp_iterations,
-                nlp_status: solution.status,
-                time: began.elapsed(),
-                decisions: next.as_ref().map_or_else(Vec::new, |(_, d)| d.clone()),
-            });
-            let halt = monitor(Event::Solved(&records[records.len() - 1])) == Control::Stop;
+                })?;
+            let assessed = self.assess(&solved);
+            let last = !solved.status.is_solved() || law.is_last(iteration, assessed.accurate);
+            let next = (!last)
+                .then(|| refined(&*law, &solved, &assessed))
+                .flatten();
+            records.push(self.record(&solved, &assessed, next.as_ref(), began));
+            let halt = monitor(Event::Solved(&records[iteration - 1])) == Control::Stop;
             let outcome = Outcome {
-                trajectory,
-                iterate: solution.iterate,
-                status: solution.status,
-                objective: solution.objective,
+                trajectory: solved.trajectory.clone(),
+                iterate: solved.iterate.clone(),
+                status: solved.status,
+                objective: solved.objective,
                 records: records.clone(),
-                converged: within && held,
-                violations: worst_of_each(&outside, self.settings.bound_tolerance),
+                discarded: Vec::new(),
+                converged: assessed.verdict.is_converged(),
+                violations: worst_of_each(&assessed.outside, self.settings.bound_tolerance),
                 statistics,
             };
-            match next {
-                Some((finer, _)) if !halt => {
-                    trajectory = resample(&outcome.trajectory, finer);
-                    previous = Some((mesh, program.layout().clone(), outcome.iterate.clone()));
-                    within_before = Some(outcome).filter(|o| o.converged).or(within_before);
+            match next.filter(|_| !halt) {
+                Some(next) => {
+                    trajectory = resample(&solved.trajectory, next.mesh);
+                    previous = Some(solved);
+                    if outcome.converged {
+                        converged = Some(outcome);
+                    }
                 }
-                _ => {
-                    return Ok(match within_before {
-                        Some(before) if !outcome.converged => Outcome {
-                            statistics,
-                            ..before
-                        },
+                None => {
+                    return Ok(match converged {
+                        Some(before) if !outcome.converged => before.preferred_to(outcome),
                         _ => outcome,
                     });
                 }
             }
+        }
+    }
+
+    /// Settings and starting iterate of `program`: `trajectory` with the multipliers of the mesh
+    /// before, or on the first mesh with those of the start, where there are any.
+    fn warm_start(
+        &self,
+        program: &Transcription<'_, O>,
+        trajectory: &Discretization,
+        previous: Option<&Solved>,
+        start: &Start,
+    ) -> (nlp::Settings, Iterate) {
+        let mut settings = self.solver.clone();
+        let (mesh, layout) = (&trajectory.mesh, program.layout());
+        let x = program.pack(trajectory);
+        let iterate = match (previous, &start.iterate) {
+            (Some(old), _) => {
+                settings.warm_start = Some(REFINED_BARRIER * settings.tolerance);
+                Duals::new(&old.trajectory.mesh, &old.layout, &old.iterate).on(mesh, layout, x)
+            }
+            (None, Some(saved)) if settings.warm_start.is_some() => {
+                match saved_layout(saved, layout) {
+                    Some(old) if old == *layout => Iterate { x, ..saved.clone() },
+                    Some(old) => Duals::new(mesh, &old, saved).on(mesh, layout, x),
+                    None => Iterate::primal(x),
+                }
+            }
+            _ => Iterate::primal(x),
+        };
+        if !iterate.has_multipliers(layout.rows()) {
+            settings.warm_start = None;
+        }
+        (settings, iterate)
+    }
+
+    /// Solves `program` from `iterate`, and should a warm start fail, once more without multipliers.
+    fn solve(
+        &self,
+        program: &mut Transcription<'_, O>,
+        mut settings: nlp::Settings,
+        iterate: Iterate,
+        statistics: &mut Statistics,
+        monitor: &mut dyn FnMut(&Progress) -> Control,
+    ) -> Result<Solved, ipopt::IpoptError> {
+        let mut solution = ipopt::solve(program, &settings, &iterate, monitor)?;
+        statistics.add(&solution.statistics);
+        let mut nlp_iterations = solution.statistics.iterations;
+        let gave_up = !solution.status.is_solved() && solution.status != Status::Interrupted;
+        if gave_up && settings.warm_start.take().is_some() {
+            // Multipliers may mislead; the same trajectory without them has every chance of
+            // a cold start.
+            solution = ipopt::solve(program, &settings, &Iterate::primal(iterate.x), monitor)?;
+            statistics.add(&solution.statistics);
+            nlp_iterations += solution.statistics.iterations;
+        }
+        Ok(Solved {
+            trajectory: program.unpack(&solution.iterate.x),
+            layout: program.layout().clone(),
+            iterate: solution.iterate,
+            status: solution.status,
+            objective: solution.objective,
+            nlp_iterations,
+        })
+    }
+
+    /// Looks at a solution between its nodes.
+    fn assess(&self, solved: &Solved) -> Assessed {
+        let errors = midpoint_errors(self.ocp, &solved.trajectory);
+        let max_error = errors.max();
+        let accurate = max_error <= self.settings.tolerance;
+        let outside = violations(self.ocp, &solved.trajectory);
+        let removable = self.removable(&outside);
+        let farthest = FAR.max(self.settings.bound_tolerance);
+        let undefined = max_error.is_nan() || outside.iter().flatten().any(|v| v.value.is_nan());
+        let verdict = if !solved.status.is_solved() {
+            Verdict::NotSolved(solved.status)
+        } else if undefined {
+            Verdict::Undefined
+        } else if !accurate {
+            Verdict::AboveTolerance
+        } else if removable.iter().flatten().all(|v| v.relative <= farthest) {
+            Verdict::Converged
+        } else {
+            Verdict::BoundExceeded
+        };
+        Assessed {
+            errors,
+            outside,
+            removable,
+            verdict,
+            accurate,
+        }
+    }
+
+    fn record(
+        &self,
+        solved: &Solved,
+        assessed: &Assessed,
+        next: Option<&Refined>,
+        began: Instant,
+    ) -> Record {
+        let mesh = &solved.trajectory.mesh;
+        let outside = assessed.outside.iter().flatten();
+        Record {
+            points: mesh.points(),
+            segments: mesh.segments(),
+            breakpoints: mesh.breakpoints().to_vec(),
+            quadrature_error: quadrature_error(self.ocp, &solved.trajectory),
+            segment_errors: assessed.errors.by_segment.clone(),
+            max_error: assessed.errors.max(),
+            max_violation: largest(outside.map(|v| v.relative)),
+            objective: solved.objective,
+            nlp_iterations: solved.nlp_iterations,
+            nlp_status: solved.status,
+            verdict: assessed.verdict,
+            time: began.elapsed(),
+            decisions: next.map_or_else(Vec::new, |next| next.decisions.clone()),
         }
     }
 
@@ -282,4 +387,13 @@ impl<O: Ocp> Refinement<'_, O> {
             resample(start, mesh)
         }
     }
+}
+
+/// The next mesh by `law`.
+fn refined(law: &dyn RefinementLaw, solved: &Solved, assessed: &Assessed) -> Option<Refined> {
+    law.refine(&Assessment {
+        trajectory: &solved.trajectory,
+        errors: &assessed.errors,
+        violations: &assessed.removable,
+    })
 }

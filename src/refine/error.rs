@@ -1,9 +1,11 @@
 //! The error estimate (28): defect of the dynamics between collocation points.
 
+use crate::largest::{largest, raise};
 use crate::ocp::{Ocp, Point};
 use crate::transcription::Discretization;
 
-/// Largest error (28) of every state in every segment.
+/// Largest error (28) of every state in every segment; NaN where the rates are NaN at one of the
+/// midpoints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Errors {
     /// Segments × states.
@@ -11,16 +13,13 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The largest of all.
+    /// The largest of all; NaN where one is NaN.
     pub fn max(&self) -> f64 {
-        self.by_segment
-            .iter()
-            .flatten()
-            .copied()
-            .fold(0.0, f64::max)
+        largest(self.by_segment.iter().flatten().copied())
     }
 
-    /// The state with the largest error in segment `s`, and that error.
+    /// The state with the largest error in segment `s`, and that error; one that is NaN counts as
+    /// the largest.
     pub fn worst(&self, s: usize) -> (usize, f64) {
         let row = &self.by_segment[s];
         let state = (0..row.len())
@@ -54,7 +53,7 @@ pub fn midpoint_errors<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Errors {
                 let t = mesh.fraction(s, tau) * trajectory.duration;
                 ocp.continuous(Point { x: &x, u: &u, t }, &mut scratch, &mut f, &mut path);
                 for i in 0..n {
-                    worst[i] = worst[i].max((dx[i] - half * f[i]).abs());
+                    raise(&mut worst[i], (dx[i] - half * f[i]).abs());
                 }
             }
             worst

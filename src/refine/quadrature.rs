@@ -1,12 +1,13 @@
 //! A second error estimate, of the states themselves instead of their derivatives.
 
 use crate::collocation::Rule;
+use crate::largest::raise;
 use crate::ocp::{Ocp, Point};
 use crate::transcription::Discretization;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 
-/// Largest relative error of any state, by integrating f along the interpolated solution on one
+/// Largest relative error of any state, NaN where it has none, by integrating f along the interpolated solution on one
 /// more LGR point a segment.
 ///
 /// M. A. Patterson, W. W. Hager and A. V. Rao, "A ph mesh refinement method for optimal control",
@@ -21,7 +22,7 @@ pub fn quadrature_error<O: Ocp>(ocp: &O, trajectory: &Discretization) -> f64 {
     let mut largest = vec![0.0_f64; n];
     for row in trajectory.x.chunks_exact(n) {
         for (peak, value) in largest.iter_mut().zip(row) {
-            *peak = peak.max(value.abs());
+            raise(peak, value.abs());
         }
     }
     let mut error = 0.0_f64;
@@ -49,7 +50,7 @@ pub fn quadrature_error<O: Ocp>(ocp: &O, trajectory: &Discretization) -> f64 {
             for j in 0..points {
                 let integrated = interpolated[(0, i)] + gained[(j, i)];
                 let gap = (integrated - interpolated[(j + 1, i)]).abs();
-                error = error.max(gap / (1.0 + largest[i]));
+                raise(&mut error, gap / (1.0 + largest[i]));
             }
         }
     }

@@ -1,10 +1,12 @@
 //! The history of a refinement.
 
+use super::Verdict;
 use crate::nlp;
 use std::time::Duration;
 
 /// What the refinement decided for one segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Decision {
     /// Within the tolerance: left as it is.
     Keep,
@@ -14,8 +16,9 @@ pub enum Decision {
     Divide(usize),
 }
 
-/// One mesh iteration.
+/// One mesh iteration. Errors are NaN where the problem's functions are.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Record {
     /// Collocation points.
     pub points: usize,
@@ -29,7 +32,8 @@ pub struct Record {
     pub max_error: f64,
     /// Largest relative error of the states by quadrature on a finer LGR set.
     pub quadrature_error: f64,
-    /// Largest part of its size by which a bound is exceeded between the nodes; 0 where none is.
+    /// Largest part of its size by which a bound is exceeded between the nodes; 0 where none is,
+    /// infinite where the bounded quantity is NaN.
     pub max_violation: f64,
     /// Objective (25).
     pub objective: f64,
@@ -37,6 +41,8 @@ pub struct Record {
     pub nlp_iterations: u32,
     /// How the solver ended.
     pub nlp_status: nlp::Status,
+    /// Whether the solution on this mesh counts, and if not, why.
+    pub verdict: Verdict,
     /// Wall time of the iteration, set-up and error estimate included.
     pub time: Duration,
     /// What was decided for each segment; empty where the refinement ended here.

@@ -1,9 +1,8 @@
 //! Settings of the mesh and its refinement.
 
-use crate::collocation::{Mesh, MeshError};
-
 /// How accuracy is raised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// Adaptive Radau pseudospectral method: segments divided or degrees raised, eq. (29)–(32).
     Adaptive,
@@ -12,6 +11,9 @@ pub enum Method {
 }
 
 impl Method {
+    /// Every method.
+    pub const ALL: [Self; 2] = [Self::Adaptive, Self::Global];
+
     /// The name in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
@@ -28,7 +30,8 @@ pub struct Settings {
     pub method: Method,
     /// Equal segments of the first mesh. Default 10. The global method has one.
     pub segments: usize,
-    /// LGR points in each segment of the first mesh, and in each part of a divided one. Default 5.
+    /// LGR points in each segment of the first mesh, and the fewest in each part of a divided one.
+    /// Default 5.
     pub points: usize,
     /// Tolerance ε_d on the largest error (28). Default 1e-5.
     pub tolerance: f64,
@@ -115,16 +118,5 @@ impl Settings {
             return Err(("r_max", self.r_max.to_string(), expected));
         }
         Ok(())
-    }
-
-    /// The first mesh: uniform, or one segment with `global_points` points for the global method.
-    ///
-    /// # Errors
-    /// [`MeshError`] where a count is zero.
-    pub fn first_mesh(&self) -> Result<Mesh, MeshError> {
-        match self.method {
-            Method::Adaptive => Mesh::uniform(self.segments, self.points),
-            Method::Global => Mesh::uniform(1, self.global_points),
-        }
     }
 }

@@ -6,22 +6,28 @@ use crate::transcription::{Discretization, Layout};
 
 /// Multipliers of a programme seen as functions of time, on the mesh they were found on.
 ///
-/// A defect's multiplier is the quadrature weight w times a costate; a path row's or a bound's is
-/// w·(width/2) times a density. Divided by those, they can be read on any mesh. In between they
-/// are interpolated linearly: they jump where a limit becomes active, and polynomials would ring.
-/// Costates jump at way-points as well, and are interpolated between those only.
+/// The multiplier of a defect is the quadrature weight w times a costate. That of a path row or of
+/// a bound along the path is w·(width/2) times a density in time. Costates and densities do not
+/// depend on the mesh, so that they can be evaluated at the points of another one. Between points
+/// they are interpolated linearly: they jump where a limit becomes active, and a polynomial would
+/// ring there. Costates jump at way-points too, and no interpolation goes across one.
 pub(super) struct Duals<'a> {
     layout: &'a Layout,
     iterate: &'a Iterate,
+    /// Fractions of the duration of the points.
     times: Vec<f64>,
     weights: Vec<Weight>,
-    /// First points of the legs between way-points, and the number of all points.
-    legs: Vec<usize>,
+    /// The first point of each phase, and the number of all points. Phases lie between the ends
+    /// and the way-points.
+    phases: Vec<usize>,
 }
 
+/// What the multipliers of one point are divided by to become functions of time.
 #[derive(Debug, Clone, Copy)]
 struct Weight {
+    /// w, for a defect.
     defect: f64,
+    /// w·(width/2), for path rows and bounds.
     density: f64,
 }
 
@@ -38,6 +44,49 @@ fn weights(mesh: &Mesh) -> Vec<Weight> {
         .collect()
 }
 
+/// Two neighbouring points with an instant between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Bracket {
+    left: usize,
+    right: usize,
+    /// How far the instant is from the left point to the right one, 0 to 1.
+    share: f64,
+}
+
+impl Bracket {
+    /// The neighbours among `times` of `fraction`; an end of `times` beyond it.
+    fn of(times: &[f64], fraction: f64) -> Self {
+        let last = times.len() - 1;
+        let right = times.partition_point(|&t| t < fraction).min(last);
+        let left = right.saturating_sub(1);
+        let gap = times[right] - times[left];
+        let share = if gap > 0.0 {
+            (fraction - times[left]) / gap
+        } else {
+            1.0
+        };
+        Self {
+            left,
+            right,
+            share: share.clamp(0.0, 1.0),
+        }
+    }
+
+    /// Linear interpolation between the values at both points.
+    fn interpolate(&self, value: impl Fn(usize) -> f64) -> f64 {
+        (1.0 - self.share) * value(self.left) + self.share * value(self.right)
+    }
+}
+
+/// A point of another mesh, as the multipliers there need it.
+#[derive(Debug, Clone, Copy)]
+struct Target {
+    point: usize,
+    weight: Weight,
+    /// Its neighbours on the old mesh.
+    bracket: Bracket,
+}
+
 impl<'a> Duals<'a> {
     /// The multipliers in `iterate`, which belong to `mesh` and `layout`.
     pub fn new(mesh: &'a Mesh, layout: &'a Layout, iterate: &'a Iterate) -> Self {
@@ -45,7 +94,7 @@ impl<'a> Duals<'a> {
         times.pop();
         let nodes = layout.way_point_nodes();
         Self {
-            legs: [0].into_iter().chain(nodes).chain([times.len()]).collect(),
+            phases: [0].into_iter().chain(nodes).chain([times.len()]).collect(),
             layout,
             iterate,
             times,
@@ -53,20 +102,21 @@ impl<'a> Duals<'a> {
         }
     }
 
-    /// The two points around `fraction` and how far it is from the first to the second; both in
-    /// the same leg.
-    fn around(&self, fraction: f64) -> (usize, usize, f64) {
-        let legs = &self.legs[1..self.legs.len() - 1];
-        let leg = legs.partition_point(|&first| self.times[first] <= fraction);
-        let (first, end) = (self.legs[leg], self.legs[leg + 1]);
-        let (a, b, share) = around(&self.times[first..end], fraction);
-        (first + a, first + b, share)
+    /// The neighbours of `fraction` in its phase.
+    fn bracket(&self, fraction: f64) -> Bracket {
+        let starts = &self.phases[1..self.phases.len() - 1];
+        let phase = starts.partition_point(|&first| self.times[first] <= fraction);
+        let (first, end) = (self.phases[phase], self.phases[phase + 1]);
+        let bracket = Bracket::of(&self.times[first..end], fraction);
+        Bracket {
+            left: first + bracket.left,
+            right: first + bracket.right,
+            ..bracket
+        }
     }
 
-    /// A starting iterate on another mesh: `x` with the multipliers read there.
+    /// A starting iterate on another mesh: `x` with the multipliers of this one.
     pub fn on(&self, mesh: &Mesh, layout: &Layout, x: Vec<f64>) -> Iterate {
-        let old = self.layout;
-        let from = self.iterate;
         let mut to = Iterate {
             multipliers: vec![0.0; layout.rows()],
             lower_multipliers: vec![0.0; layout.variables()],
@@ -75,62 +125,88 @@ impl<'a> Duals<'a> {
         };
         let mut fractions = mesh.node_fractions();
         fractions.pop();
-        let is_way_point = |k: usize| old.way_point_nodes().any(|node| node == k);
-        // What a state's bound at a way-point is worth is no density: the next point's is.
-        let last = self.times.len() - 1;
-        let beside = |k: usize| {
-            if is_way_point(k) {
-                (k + 1).min(last)
-            } else {
-                k
-            }
-        };
-        for (k, (&fraction, weight)) in fractions.iter().zip(weights(mesh)).enumerate() {
-            let (a, b, share) = self.around(fraction);
-            let mix = |va: f64, vb: f64| (1.0 - share) * va + share * vb;
-            let (wa, wb) = (self.weights[a], self.weights[b]);
-            for i in 0..layout.states {
-                let l = &from.multipliers;
-                to.multipliers[layout.defect(k, i)] = weight.defect
-                    * mix(
-                        l[old.defect(a, i)] / wa.defect,
-                        l[old.defect(b, i)] / wb.defect,
-                    );
-            }
-            for p in 0..Self::common(layout.path, old.path) {
-                let l = &from.multipliers;
-                to.multipliers[layout.path(k, p)] = weight.density
-                    * mix(
-                        l[old.path(a, p)] / wa.density,
-                        l[old.path(b, p)] / wb.density,
-                    );
-            }
-            for i in 0..layout.states + layout.controls {
-                let (a, b) = if i < layout.states {
-                    (beside(a), beside(b))
-                } else {
-                    (a, b)
-                };
-                let (wa, wb) = (self.weights[a], self.weights[b]);
-                let (va, vb, v) = (old.state(a, i), old.state(b, i), layout.state(k, i));
-                for (z, out) in [
-                    (&from.lower_multipliers, &mut to.lower_multipliers),
-                    (&from.upper_multipliers, &mut to.upper_multipliers),
-                ] {
-                    out[v] = weight.density * mix(z[va] / wa.density, z[vb] / wb.density);
-                }
-            }
+        for (point, (&fraction, weight)) in fractions.iter().zip(weights(mesh)).enumerate() {
+            let target = Target {
+                point,
+                weight,
+                bracket: self.bracket(fraction),
+            };
+            let from = self.iterate;
+            self.set_rows(layout, target, &mut to.multipliers);
+            self.set_bounds(
+                layout,
+                target,
+                &from.lower_multipliers,
+                &mut to.lower_multipliers,
+            );
+            self.set_bounds(
+                layout,
+                target,
+                &from.upper_multipliers,
+                &mut to.upper_multipliers,
+            );
         }
         self.copy_ends(layout, &mut to);
         to
     }
 
-    /// Rows that can be taken over: all of them, or none where the problems have not as many.
+    /// Sets the multipliers of the defects and path rows of a point of another mesh.
+    fn set_rows(&self, layout: &Layout, target: Target, out: &mut [f64]) {
+        let old = self.layout;
+        let from = &self.iterate.multipliers;
+        let Target {
+            point,
+            weight,
+            bracket,
+        } = target;
+        for i in 0..layout.states {
+            let costate = |k: usize| from[old.defect(k, i)] / self.weights[k].defect;
+            out[layout.defect(point, i)] = weight.defect * bracket.interpolate(costate);
+        }
+        for p in 0..Self::common(layout.path, old.path) {
+            let density = |k: usize| from[old.path(k, p)] / self.weights[k].density;
+            out[layout.path(point, p)] = weight.density * bracket.interpolate(density);
+        }
+    }
+
+    /// Sets the multipliers of the lower or the upper bounds of states and controls at a point of
+    /// another mesh, `from` being those of all variables on this one.
+    fn set_bounds(&self, layout: &Layout, target: Target, from: &[f64], out: &mut [f64]) {
+        let Target {
+            point,
+            weight,
+            bracket,
+        } = target;
+        for i in 0..layout.states + layout.controls {
+            let density = |k: usize| {
+                let k = if i < layout.states {
+                    self.without_way_point(k)
+                } else {
+                    k
+                };
+                from[self.layout.state(k, i)] / self.weights[k].density
+            };
+            out[layout.state(point, i)] = weight.density * bracket.interpolate(density);
+        }
+    }
+
+    /// Point `k`, or the next one where `k` is a way-point.
+    ///
+    /// The bounds of a state at a way-point hold at that instant. Their multipliers are impulses,
+    /// not densities in time, so that the density next to them is used.
+    fn without_way_point(&self, k: usize) -> usize {
+        let is_way_point = self.layout.way_point_nodes().any(|node| node == k);
+        (k + usize::from(is_way_point)).min(self.times.len() - 1)
+    }
+
+    /// Number of rows whose multipliers are taken over: all, or none where the two problems have
+    /// not as many.
     fn common(new: usize, old: usize) -> usize {
         if new == old { new } else { 0 }
     }
 
-    /// What belongs to one instant or to the problem as a whole has no weight and is copied.
+    /// Copies the multipliers that belong to one instant, or to the problem as a whole: they have
+    /// no weight.
     fn copy_ends(&self, layout: &Layout, to: &mut Iterate) {
         let old = self.layout;
         let nodes = layout.way_point_nodes().zip(old.way_point_nodes());
@@ -163,7 +239,8 @@ impl<'a> Duals<'a> {
 /// `None` where no layout has these lengths.
 pub(super) fn saved_layout(saved: &Iterate, layout: &Layout) -> Option<Layout> {
     if layout.way_point_nodes().next().is_some() {
-        // Rows between those of the points leave no way to tell; only the same problem's do.
+        // The number of rows does not say how many belong to way-points: only the same layout will
+        // do.
         let same = saved.x.len() == layout.variables() && saved.has_multipliers(layout.rows());
         return same.then(|| layout.clone());
     }
@@ -200,28 +277,13 @@ pub(super) fn resample(trajectory: &Discretization, mesh: Mesh) -> Discretizatio
     let fractions = sampled.mesh.node_fractions();
     let width = trajectory.controls;
     for (k, &fraction) in fractions[..sampled.mesh.points()].iter().enumerate() {
-        let (a, b, share) = around(&times, fraction);
+        let bracket = Bracket::of(&times, fraction);
         let row = &mut sampled.u[k * width..(k + 1) * width];
-        let ends = trajectory.control(a).iter().zip(trajectory.control(b));
-        for (value, (a, b)) in row.iter_mut().zip(ends) {
-            *value = (1.0 - share) * a + share * b;
+        for (j, value) in row.iter_mut().enumerate() {
+            *value = bracket.interpolate(|k| trajectory.control(k)[j]);
         }
     }
     sampled
-}
-
-/// The two of `times` around `fraction` and how far it is from the first to the second.
-fn around(times: &[f64], fraction: f64) -> (usize, usize, f64) {
-    let last = times.len() - 1;
-    let right = times.partition_point(|&t| t < fraction).min(last);
-    let left = right.saturating_sub(1);
-    let gap = times[right] - times[left];
-    let share = if gap > 0.0 {
-        (fraction - times[left]) / gap
-    } else {
-        1.0
-    };
-    (left, right, share.clamp(0.0, 1.0))
 }
 
 #[cfg(test)]

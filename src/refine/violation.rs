@@ -23,9 +23,9 @@ pub struct Violation {
     pub tau: f64,
     /// Time, s.
     pub t: f64,
-    /// Value there.
+    /// Value there; may be NaN.
     pub value: f64,
-    /// How far it is outside.
+    /// How far it is outside; infinite where the value is NaN.
     pub excess: f64,
     /// The same as a part of the bound's size; of one where the bounds are zero.
     pub relative: f64,

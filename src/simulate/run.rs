@@ -7,7 +7,7 @@ use super::noise::{Noise, Source};
 use super::platform::JointFriction;
 use super::player::Player;
 use super::tracking::Tracking;
-use crate::verify::integrate::{DormandPrince, Motion, Stuck};
+use crate::integrate::{DormandPrince, IntegrationError, Ode};
 use nalgebra::Vector2;
 use std::collections::VecDeque;
 
@@ -58,7 +58,7 @@ struct Plant {
     found: [f64; 2],
 }
 
-impl Motion for Plant {
+impl Ode for Plant {
     type Error = std::convert::Infallible;
 
     fn rate(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Error> {
@@ -186,10 +186,10 @@ pub(super) fn play(player: &Player, index: usize) -> Result<Run, SimulateError> 
         }
         integrator
             .advance(&mut plant, [t, next], &mut y, fresh, Plant::after_step)
-            .map_err(|stuck| match stuck {
-                Stuck::Rate(time, _) | Stuck::Underflow(time) | Stuck::Steps(time) => {
-                    SimulateError::Stuck { time }
-                }
+            .map_err(|error| match error {
+                IntegrationError::Rate(time, _)
+                | IntegrationError::StepUnderflow(time)
+                | IntegrationError::StepLimit(time) => SimulateError::Stuck { time },
             })?;
         (t, fresh) = (next, false);
     }

@@ -9,7 +9,7 @@ use crate::autodiff::Scalar;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::ocp::{Ends, Formulation, Ocp, Passage, Point, PointDerivatives};
+use crate::ocp::{Ends, Formulation, InteriorPoint, Ocp, Point, PointDerivatives};
 
 /// Scratch of [`FreeFloating`].
 #[derive(Debug, Clone)]
@@ -97,12 +97,12 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
 
     fn way_point<S: Scalar>(
         &self,
-        passage: Passage<'_, S>,
+        point: InteriorPoint<'_, S>,
         scratch: &mut Scratch<Sp, S>,
         rows: &mut [S],
     ) {
-        if let Some(goal) = &self.way_points[passage.way_point].goal {
-            let pose = self.pose(passage.x, passage.t, &mut scratch.data);
+        if let Some(goal) = &self.way_points[point.way_point].goal {
+            let pose = self.pose(point.x, point.t, &mut scratch.data);
             goal.values(&pose, rows);
         }
     }

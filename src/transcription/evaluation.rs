@@ -3,7 +3,7 @@
 use super::functions::{Boundary, Node};
 use super::node_derivatives::NodeDerivatives;
 use super::points::Points;
-use super::way_point::{Passage, passages};
+use super::way_point::{WayPointEvaluation, way_points};
 use super::{Layout, Patterns};
 use crate::autodiff::{Function, SparseDerivatives};
 use crate::collocation::Mesh;
@@ -24,7 +24,7 @@ pub(super) struct Evaluation<'a, O: Ocp> {
     pub first: Vec<f64>,
     pub end_values: Vec<f64>,
     pub end_first: Vec<f64>,
-    pub way_points: Vec<Passage<'a, O>>,
+    pub way_points: Vec<WayPointEvaluation<'a, O>>,
     have_values: bool,
     have_first: bool,
     end_inputs: Vec<f64>,
@@ -45,7 +45,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         let mut fractions = mesh.node_fractions();
         fractions.pop();
         Self {
-            way_points: passages(ocp, formulation, patterns, &layout),
+            way_points: way_points(ocp, formulation, patterns, &layout),
             fixed_duration: formulation.duration.lower,
             values: vec![0.0; layout.points * node.outputs()],
             first: vec![0.0; layout.points * node_derivatives.jacobian_nonzeros()],

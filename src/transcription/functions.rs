@@ -1,7 +1,7 @@
 //! The functions of an optimal control problem that derivatives are taken of.
 
 use crate::autodiff::{Function, Scalar};
-use crate::ocp::{Ends, Formulation, Ocp, Passage, Point};
+use crate::ocp::{Ends, Formulation, InteriorPoint, Ocp, Point};
 
 /// One collocation point: (x, u, t) ↦ (f, C, ℒ).
 #[derive(Debug)]
@@ -160,11 +160,11 @@ impl<O: Ocp> Function for WayPoint<'_, O> {
     }
 
     fn evaluate<S: Scalar>(&self, v: &[S], scratch: &mut O::Scratch<S>, out: &mut [S]) {
-        let passage = Passage {
+        let point = InteriorPoint {
             way_point: self.index,
             x: &v[..self.states],
             t: v[self.states] * self.fraction,
         };
-        self.ocp.way_point(passage, scratch, out);
+        self.ocp.way_point(point, scratch, out);
     }
 }

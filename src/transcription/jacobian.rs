@@ -143,13 +143,13 @@ impl Jacobian {
     ) {
         let here = layout.way_point_nodes().position(|node| node == point);
         let Some(way_point) = here else { return };
-        let passage = &evaluation.way_points[way_point];
+        let evaluated = &evaluation.way_points[way_point];
         let mut slot = 0;
-        for (r, inputs) in passage.sparsity().jacobian.iter().enumerate() {
+        for (r, inputs) in evaluated.sparsity().jacobian.iter().enumerate() {
             let row = layout.way_point(way_point, r);
             for &input in inputs {
                 let term = Term::WayPoint { way_point, slot };
-                self.push(row, passage.columns[input], 0.0, Some(term));
+                self.push(row, evaluated.columns[input], 0.0, Some(term));
                 slot += 1;
             }
         }

@@ -24,12 +24,12 @@ pub struct Layout {
     /// Whether the duration is a variable.
     pub free_duration: bool,
     /// Way-points, rising in time.
-    pub(crate) way_points: Arc<[Passing]>,
+    pub(crate) way_points: Arc<[WayPointRows]>,
 }
 
-/// Where a way-point stands.
+/// Where a way-point and its rows stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Passing {
+pub(crate) struct WayPointRows {
     node: usize,
     rows: usize,
     /// Rows of the way-points before it.
@@ -71,11 +71,11 @@ impl Layout {
     /// Where a breakpoint is missing.
     pub fn new(formulation: &Formulation, mesh: &Mesh) -> Self {
         let mut before = 0;
-        let passing = |point: &crate::ocp::WayPoint| {
+        let rows_of = |point: &crate::ocp::WayPoint| {
             let node = mesh.node_at(point.fraction);
             let rows = point.rows.len();
             before += rows;
-            Passing {
+            WayPointRows {
                 node: node.expect("a breakpoint at every way-point"),
                 rows,
                 before: before - rows,
@@ -88,7 +88,7 @@ impl Layout {
             boundary: formulation.boundary.len(),
             points: mesh.points(),
             free_duration: !formulation.duration.is_fixed(),
-            way_points: formulation.way_points.iter().map(passing).collect(),
+            way_points: formulation.way_points.iter().map(rows_of).collect(),
         }
     }
 
@@ -131,7 +131,7 @@ impl Layout {
 
     /// Row `r` of way-point `w`.
     pub fn way_point(&self, w: usize, r: usize) -> usize {
-        let Passing { node, before, .. } = self.way_points[w];
+        let WayPointRows { node, before, .. } = self.way_points[w];
         node * (self.states + self.path) + before + r
     }
 
@@ -152,16 +152,16 @@ impl Layout {
             return Row::Boundary(index - self.boundary(0));
         }
         let mut shift = 0;
-        for (way_point, passing) in self.way_points.iter().enumerate() {
+        for (way_point, rows) in self.way_points.iter().enumerate() {
             let first = self.way_point(way_point, 0);
             if index < first {
                 break;
             }
-            if index < first + passing.rows {
+            if index < first + rows.rows {
                 let row = index - first;
                 return Row::WayPoint { way_point, row };
             }
-            shift = passing.before + passing.rows;
+            shift = rows.before + rows.rows;
         }
         let width = self.states + self.path;
         let (point, i) = ((index - shift) / width, (index - shift) % width);

@@ -1,4 +1,4 @@
-//! Values and derivatives of one collocation point, swept or by the problem's own structure.
+//! Values and derivatives of one collocation point, by dual numbers or by the problem's own code.
 
 use super::functions::Node;
 use crate::autodiff::{Function, SparseDerivatives, Sparsity};
@@ -10,14 +10,15 @@ pub(super) struct NodeDerivatives<'a, O: Ocp> {
     sparsity: Sparsity,
     nonzeros: usize,
     plain: O::Scratch<f64>,
-    way: Way<'a, O>,
+    evaluator: Evaluator<'a, O>,
 }
 
-enum Way<'a, O: Ocp> {
-    /// Dual numbers swept over the whole function.
-    Swept(Box<SparseDerivatives<Node<'a, O>>>),
-    /// The problem's own, dense, of which the nonzeros are picked.
-    Own {
+/// How derivatives are computed.
+enum Evaluator<'a, O: Ocp> {
+    /// By dual numbers, which sweep over the whole function.
+    DualNumbers(Box<SparseDerivatives<Node<'a, O>>>),
+    /// By the problem itself, [`Ocp::derivatives`]: dense, the nonzeros are picked from them.
+    Analytic {
         derivatives: Box<dyn PointDerivatives + 'a>,
         dense: Vec<f64>,
         jacobian: Vec<usize>,
@@ -28,9 +29,11 @@ enum Way<'a, O: Ocp> {
 impl<'a, O: Ocp> NodeDerivatives<'a, O> {
     pub fn new(node: &Node<'a, O>, sparsity: Sparsity) -> Self {
         let (inputs, outputs) = (node.inputs(), node.outputs());
-        let way = match node.ocp.derivatives() {
-            None => Way::Swept(Box::new(SparseDerivatives::new(node, sparsity.clone()))),
-            Some(derivatives) => Way::Own {
+        let evaluator = match node.ocp.derivatives() {
+            None => {
+                Evaluator::DualNumbers(Box::new(SparseDerivatives::new(node, sparsity.clone())))
+            }
+            Some(derivatives) => Evaluator::Analytic {
                 derivatives,
                 dense: vec![0.0; inputs * inputs.max(outputs)],
                 jacobian: (sparsity.jacobian.iter().enumerate())
@@ -46,7 +49,7 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
         Self {
             nonzeros: sparsity.jacobian.iter().map(Vec::len).sum(),
             plain: node.ocp.scratch(),
-            way,
+            evaluator,
             sparsity,
         }
     }
@@ -68,9 +71,9 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
 
     /// Nonzeros of the Jacobian at `v`, output by output.
     pub fn jacobian(&mut self, node: &Node<'a, O>, v: &[f64], out: &mut [f64]) {
-        match &mut self.way {
-            Way::Swept(swept) => swept.jacobian(node, v, out),
-            Way::Own {
+        match &mut self.evaluator {
+            Evaluator::DualNumbers(sparse) => sparse.jacobian(node, v, out),
+            Evaluator::Analytic {
                 derivatives,
                 dense,
                 jacobian,
@@ -85,9 +88,9 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
 
     /// Nonzeros of Σ weightsᵢ ∇²fᵢ at `v`, in the order of [`Sparsity::hessian`].
     pub fn hessian(&mut self, node: &Node<'a, O>, v: &[f64], weights: &[f64], out: &mut [f64]) {
-        match &mut self.way {
-            Way::Swept(swept) => swept.hessian(node, v, weights, out),
-            Way::Own {
+        match &mut self.evaluator {
+            Evaluator::DualNumbers(sparse) => sparse.hessian(node, v, weights, out),
+            Evaluator::Analytic {
                 derivatives,
                 dense,
                 hessian,

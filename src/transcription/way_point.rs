@@ -6,7 +6,7 @@ use crate::autodiff::{Function, SparseDerivatives, Sparsity};
 use crate::ocp::{Formulation, Ocp};
 
 /// One way-point with its values and derivatives at the current iterate.
-pub(super) struct Passage<'a, O: Ocp> {
+pub(super) struct WayPointEvaluation<'a, O: Ocp> {
     function: WayPoint<'a, O>,
     derivatives: SparseDerivatives<WayPoint<'a, O>>,
     /// Variable behind each input: the states at its node, then the duration.
@@ -18,12 +18,12 @@ pub(super) struct Passage<'a, O: Ocp> {
 }
 
 /// The way-points of a problem.
-pub(super) fn passages<'a, O: Ocp>(
+pub(super) fn way_points<'a, O: Ocp>(
     ocp: &'a O,
     formulation: &Formulation,
     patterns: &Patterns,
     layout: &Layout,
-) -> Vec<Passage<'a, O>> {
+) -> Vec<WayPointEvaluation<'a, O>> {
     layout
         .way_point_nodes()
         .enumerate()
@@ -31,7 +31,7 @@ pub(super) fn passages<'a, O: Ocp>(
             let function = WayPoint::new(ocp, formulation, index);
             let derivatives = SparseDerivatives::new(&function, patterns.way_points[index].clone());
             let states = (0..layout.states).map(|i| layout.state(node, i));
-            Passage {
+            WayPointEvaluation {
                 columns: states.chain([layout.duration()]).collect(),
                 values: vec![0.0; function.rows],
                 first: vec![0.0; derivatives.jacobian_nonzeros()],
@@ -43,7 +43,7 @@ pub(super) fn passages<'a, O: Ocp>(
         .collect()
 }
 
-impl<O: Ocp> Passage<'_, O> {
+impl<O: Ocp> WayPointEvaluation<'_, O> {
     pub fn sparsity(&self) -> &Sparsity {
         self.derivatives.sparsity()
     }

@@ -2,10 +2,10 @@
 
 use super::Verification;
 use super::bodies::{BaseMotion, Bodies};
-use super::integrate::Motion;
 use super::mass_matrix::{BASE, MassMatrix, NotPositiveDefinite};
 use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
+use crate::integrate::Ode;
 use crate::transcription::Discretization;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -56,7 +56,7 @@ impl<'a> Forward<'a> {
     }
 }
 
-impl Motion for Forward<'_> {
+impl Ode for Forward<'_> {
     type Error = NotPositiveDefinite;
 
     fn rate(&mut self, tau: f64, y: &[f64], dy: &mut [f64]) -> Result<(), NotPositiveDefinite> {

@@ -8,14 +8,12 @@
 //! | --- | --- |
 //! | `bodies` | poses, velocities and momentum of all bodies by forward kinematics |
 //! | `mass_matrix` | inertia matrix and bias of eq. (4) from body Jacobians, Schur complement (6) |
-//! | `integrate` | adaptive Dormand-Prince 5(4) |
 //! | `forward` | the full dynamics under the planned control, open loop |
 //! | `replay` | the base where the joints follow the planned path |
 //! | `pass` | one integration over all segments, compared with the plan at its nodes |
 
 pub mod bodies;
 mod forward;
-pub mod integrate;
 pub mod mass_matrix;
 mod pass;
 mod polynomial;

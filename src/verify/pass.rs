@@ -1,11 +1,11 @@
 //! One integration over the whole plan, segment by segment and node by node.
 
 use super::bodies::{BaseMotion, Bodies, orientation};
-use super::integrate::{DormandPrince, Motion, Stuck};
 use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
 use super::{Verification, VerifyError};
 use crate::dynamics::Model;
 use crate::dynamics::attitude::SpatialAttitude;
+use crate::integrate::{DormandPrince, IntegrationError, Ode};
 use crate::problem::Problem;
 use crate::transcription::Discretization;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -95,7 +95,7 @@ impl<'a> Planned<'a> {
 }
 
 /// A motion that is integrated along the plan, in τ of each segment.
-pub(super) trait Pass: Motion<Error = NotPositiveDefinite> {
+pub(super) trait Pass: Ode<Error = NotPositiveDefinite> {
     /// What is integrated, for messages.
     const NAME: &'static str;
     /// The state at t₀.
@@ -132,15 +132,15 @@ pub(super) fn run<P: Pass>(
                 .advance(&mut pass, [ends[0], ends[1]], &mut y, i == 0, |pass, y| {
                     pass.after_step(y, found);
                 })
-                .map_err(|stuck| {
+                .map_err(|error| {
                     let time = |tau| mesh.fraction(s, tau) * plan.duration;
-                    match stuck {
-                        Stuck::Rate(tau, NotPositiveDefinite) => singular(time(tau)),
-                        Stuck::Underflow(tau) => VerifyError::StepUnderflow {
+                    match error {
+                        IntegrationError::Rate(tau, NotPositiveDefinite) => singular(time(tau)),
+                        IntegrationError::StepUnderflow(tau) => VerifyError::StepUnderflow {
                             pass: P::NAME,
                             time: time(tau),
                         },
-                        Stuck::Steps(tau) => VerifyError::StepLimit {
+                        IntegrationError::StepLimit(tau) => VerifyError::StepLimit {
                             pass: P::NAME,
                             time: time(tau),
                             limit: MAX_STEPS,

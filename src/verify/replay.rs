@@ -4,10 +4,10 @@
 use super::Verification;
 use super::bodies::{BaseMotion, Bodies};
 use super::forward::{raise, turn_rate, unit, vector, write};
-use super::integrate::Motion;
 use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
 use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
+use crate::integrate::Ode;
 use crate::transcription::Discretization;
 
 /// Integrates the base's position and orientation by the system's momentum along the polynomial θ(t).
@@ -42,7 +42,7 @@ impl<'a> Replay<'a> {
     }
 }
 
-impl Motion for Replay<'_> {
+impl Ode for Replay<'_> {
     type Error = NotPositiveDefinite;
 
     fn rate(&mut self, tau: f64, y: &[f64], dy: &mut [f64]) -> Result<(), NotPositiveDefinite> {

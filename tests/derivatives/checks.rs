@@ -5,7 +5,7 @@ use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::dynamics::space::Space;
 use ffsm_ipopt::nlp::Nlp;
-use ffsm_ipopt::ocp::{Ends, Formulation, LimitGroup, Ocp, Passage, Point};
+use ffsm_ipopt::ocp::{Ends, Formulation, InteriorPoint, LimitGroup, Ocp, Point};
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Patterns, Transcription};
@@ -41,12 +41,12 @@ pub fn programme<O: Ocp>(ocp: &O, mesh: &Mesh, v: &[Reference]) -> (Reference, V
             for (w, passed) in f.way_points.iter().enumerate() {
                 if mesh.node_at(passed.fraction) == Some(k) {
                     let mut own = vec![Reference::zero(); passed.rows.len()];
-                    let passage = Passage {
+                    let point = InteriorPoint {
                         way_point: w,
                         x: &node(k)[..n],
                         t: duration * passed.fraction,
                     };
-                    ocp.way_point(passage, &mut scratch, &mut own);
+                    ocp.way_point(point, &mut scratch, &mut own);
                     rows.extend(own);
                 }
             }

@@ -3,7 +3,7 @@
 use crate::checks::*;
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
-use ffsm_ipopt::ocp::{self, Ends, Formulation, Interval, Ocp, Passage, Point, Quantity};
+use ffsm_ipopt::ocp::{self, Ends, Formulation, InteriorPoint, Interval, Ocp, Point, Quantity};
 
 /// Dynamics, path, boundary rows and costs that depend on time explicitly, with a free duration.
 struct TimeVarying;
@@ -45,8 +45,8 @@ impl Ocp for TimeVarying {
         u.square() * (x * late).cos() + late * late * late
     }
 
-    fn way_point<S: Scalar>(&self, passage: Passage<'_, S>, _: &mut (), rows: &mut [S]) {
-        let Passage { way_point, x, t } = passage;
+    fn way_point<S: Scalar>(&self, point: InteriorPoint<'_, S>, _: &mut (), rows: &mut [S]) {
+        let InteriorPoint { way_point, x, t } = point;
         rows[0] = x[0] * x[1].square() * t;
         rows[1] = (x[1] * t).sin() + x[0].square() * way_point as f64;
     }

@@ -9,7 +9,7 @@ use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::nalgebra::Vector3;
 use ffsm_ipopt::nlp::Nlp;
-use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, Interval, Ocp, Passage, Point};
+use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, InteriorPoint, Interval, Ocp, Point};
 use ffsm_ipopt::problem::{KeepOut, Obstacle, Problem, Sphere};
 use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Patterns, Transcription};
@@ -49,11 +49,11 @@ impl<O: Ocp> Ocp for Swept<'_, O> {
 
     fn way_point<S: Scalar>(
         &self,
-        passage: Passage<'_, S>,
+        point: InteriorPoint<'_, S>,
         scratch: &mut Self::Scratch<S>,
         rows: &mut [S],
     ) {
-        self.0.way_point(passage, scratch, rows);
+        self.0.way_point(point, scratch, rows);
     }
 }
 

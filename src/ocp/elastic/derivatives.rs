@@ -1,6 +1,7 @@
 //! Derivatives of a problem with elastic limits from those of the problem inside.
 
-use super::{Elastic, Limited, Ocp, Point, PointDerivatives};
+use super::limits::{Elastic, OnPath};
+use crate::ocp::{Ocp, Point, PointDerivatives};
 
 pub(super) struct ElasticDerivatives<'a, O> {
     problem: &'a Elastic<'a, O>,
@@ -66,21 +67,20 @@ impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
             }
         }
         let own = last + self.amounts;
-        for (k, &(member, group, _)) in self.problem.path.iter().enumerate() {
-            let scale = self.problem.groups[group].scale;
+        for (k, bound) in self.problem.path.iter().enumerate() {
+            let scale = self.problem.groups[bound.group].scale;
             for (row, sign) in [(own + 2 * k, -1.0), (own + 2 * k + 1, 1.0)] {
                 let to = &mut jacobian[row * width..(row + 1) * width];
-                match member {
-                    Limited::State(i) | Limited::Terminal(i) => to[i] = 1.0,
-                    Limited::Control(i) => to[self.outer(self.states + i)] = 1.0,
-                    Limited::Path(i) => {
+                match bound.quantity {
+                    OnPath::State(i) => to[i] = 1.0,
+                    OnPath::Control(i) => to[self.outer(self.states + i)] = 1.0,
+                    OnPath::Row(i) => {
                         for input in 0..from {
                             to[self.outer(input)] = self.first[(self.states + i) * from + input];
                         }
                     }
-                    _ => unreachable!("bounds at one instant are not path rows"),
                 }
-                to[self.states + group] = sign * scale;
+                to[self.states + bound.group] = sign * scale;
             }
         }
     }
@@ -93,8 +93,8 @@ impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
         self.weights[..states].copy_from_slice(rates);
         self.weights[states..states + path].copy_from_slice(rows);
         self.weights[states + path] = cost[0] * self.problem.regularization;
-        for (pair, (member, ..)) in elastic.chunks_exact(2).zip(&self.problem.path) {
-            if let Limited::Path(i) = member {
+        for (pair, bound) in elastic.chunks_exact(2).zip(&self.problem.path) {
+            if let OnPath::Row(i) = bound.quantity {
                 self.weights[states + i] += pair[0] + pair[1];
             }
         }

@@ -3,23 +3,27 @@
 //! E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I", table II.5.2,
 //! step control of section II.4.
 
-/// Right-hand side of an ordinary differential equation.
-pub trait Motion {
+/// An ordinary differential equation dy/dt = f(t, y).
+pub trait Ode {
     /// Why the right-hand side has no value.
     type Error;
     /// Writes dy/dt at `t` to `dy`.
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Error>;
 }
 
-/// Why an interval could not be crossed, and the time reached.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stuck<E> {
-    /// The right-hand side failed.
-    Rate(f64, E),
+/// Why an interval could not be crossed, each with the time reached.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IntegrationError<E> {
+    /// The right-hand side has no value at the start of the interval.
+    #[error("the right-hand side has no value at t = {0}")]
+    Rate(f64, #[source] E),
     /// The step had to become shorter than time resolves.
-    Underflow(f64),
+    #[error("no step from t = {0} is short enough for the tolerance")]
+    StepUnderflow(f64),
     /// The step limit was reached.
-    Steps(f64),
+    #[error("the step limit was reached at t = {0}")]
+    StepLimit(f64),
 }
 
 /// The integrator with its workspace; the step found lasts from one interval to the next.
@@ -108,19 +112,18 @@ impl DormandPrince {
     /// one of the interval before; `accepted` sees the state after every step taken.
     ///
     /// # Errors
-    /// [`Stuck`] where the interval cannot be crossed.
-    pub fn advance<M: Motion>(
+    /// [`IntegrationError`] where the interval cannot be crossed.
+    pub fn advance<O: Ode>(
         &mut self,
-        motion: &mut M,
+        ode: &mut O,
         [start, end]: [f64; 2],
         y: &mut [f64],
         fresh: bool,
-        mut accepted: impl FnMut(&mut M, &[f64]),
-    ) -> Result<(), Stuck<M::Error>> {
+        mut accepted: impl FnMut(&mut O, &[f64]),
+    ) -> Result<(), IntegrationError<O::Error>> {
         if fresh {
-            motion
-                .rate(start, y, &mut self.stages[0])
-                .map_err(|e| Stuck::Rate(start, e))?;
+            ode.rate(start, y, &mut self.stages[0])
+                .map_err(|e| IntegrationError::Rate(start, e))?;
         }
         if self.step == 0.0 {
             self.step = self.first_step(y, end - start);
@@ -128,22 +131,22 @@ impl DormandPrince {
         let mut t = start;
         while t < end {
             if self.taken + self.rejected >= self.max_steps {
-                return Err(Stuck::Steps(t));
+                return Err(IntegrationError::StepLimit(t));
             }
             // A step that almost reaches the end is stretched to it.
             let last = t + 1.01 * self.step >= end;
             let h = if last { end - t } else { self.step };
             if h <= 4.0 * f64::EPSILON * start.abs().max(end.abs()) {
-                return Err(Stuck::Underflow(t));
+                return Err(IntegrationError::StepUnderflow(t));
             }
-            let error = self.attempt(motion, t, h, y);
+            let error = self.attempt(ode, t, h, y);
             let factor = (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
             if error <= 1.0 {
                 self.taken += 1;
                 t = if last { end } else { t + h };
                 y.copy_from_slice(&self.trial);
                 self.stages.swap(0, 6);
-                accepted(motion, y);
+                accepted(ode, y);
                 // A step cut short by the end says nothing against the longer one.
                 self.step = if last {
                     self.step.max(h * factor)
@@ -159,7 +162,7 @@ impl DormandPrince {
     }
 
     /// Error of a trial step relative to the tolerance; infinite where it has none.
-    fn attempt<M: Motion>(&mut self, motion: &mut M, t: f64, h: f64, y: &[f64]) -> f64 {
+    fn attempt<O: Ode>(&mut self, ode: &mut O, t: f64, h: f64, y: &[f64]) -> f64 {
         for i in 1..7 {
             let (known, new) = self.stages.split_at_mut(i);
             for (k, trial) in self.trial.iter_mut().enumerate() {
@@ -171,7 +174,7 @@ impl DormandPrince {
                 *trial = y[k] + h * slope;
             }
             // A shorter step may get by where a wild trial state has no rate.
-            if motion.rate(t + C[i] * h, &self.trial, &mut new[0]).is_err() {
+            if ode.rate(t + C[i] * h, &self.trial, &mut new[0]).is_err() {
                 return f64::INFINITY;
             }
         }
@@ -196,5 +199,43 @@ impl DormandPrince {
             worst = worst.max(rate.abs() / (1e-3 + value.abs()));
         }
         (1e-3 / worst).min(0.01 * span)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ẏ = y² with the solution 1/(1 − t), which ends at t = 1.
+    struct Blowup;
+
+    impl Ode for Blowup {
+        type Error = ();
+
+        fn rate(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), ()> {
+            dy[0] = y[0] * y[0];
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn the_integrator_meets_its_tolerance_and_says_where_it_stops() {
+        let mut y = [1.0];
+        let mut integrator = DormandPrince::new(1, 1e-10, 1e-12, 100_000);
+        integrator
+            .advance(&mut Blowup, [0.0, 0.5], &mut y, true, |_, _| {})
+            .unwrap();
+        integrator
+            .advance(&mut Blowup, [0.5, 0.9], &mut y, false, |_, _| {})
+            .unwrap();
+        assert!((y[0] / 10.0 - 1.0).abs() < 1e-8, "{y:?}");
+        assert!(integrator.taken() < 1000);
+        let error = integrator
+            .advance(&mut Blowup, [0.9, 2.0], &mut y, false, |_, _| {})
+            .unwrap_err();
+        let IntegrationError::StepUnderflow(t) = error else {
+            panic!("{error:?}")
+        };
+        assert!((t - 1.0).abs() < 1e-6, "{t}");
     }
 }

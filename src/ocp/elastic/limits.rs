@@ -1,0 +1,178 @@
+//! Which bounds of a problem give way, and the problem without them.
+
+use crate::ocp::{Formulation, Interval, Ocp, Quantity};
+
+/// One bound that may give way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limited {
+    /// The bounds of a state along the path.
+    State(usize),
+    /// The bounds of a state at t_f.
+    Terminal(usize),
+    /// The bounds of a control.
+    Control(usize),
+    /// The bounds of a path row.
+    Path(usize),
+    /// The bounds of a boundary row.
+    Boundary(usize),
+    /// The bounds of a state at a way-point: which way-point, which state.
+    Passed(usize, usize),
+    /// The bounds of a row of a way-point: which way-point, which row.
+    WayPoint(usize, usize),
+}
+
+/// Bounds that belong to one limit of the problem and give way together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LimitGroup {
+    /// What a person calls the limit.
+    pub name: String,
+    /// Its bounds.
+    pub members: Vec<Limited>,
+    /// How much giving way counts as one: typically the size of the bound.
+    pub scale: f64,
+}
+
+/// A problem whose chosen limits may be exceeded, each by an amount e_g ≥ 0 of its own that is
+/// to be as small as possible: minimise Σ e_g + `regularization`·(the problem's own cost).
+///
+/// Each e_g is carried as a state that does not change, so that it couples neighbouring instants
+/// only and the transcription needs no special case.
+#[derive(Debug)]
+pub struct Elastic<'a, O> {
+    pub(super) inner: &'a O,
+    pub(super) groups: Vec<LimitGroup>,
+    pub(super) regularization: f64,
+    pub(super) base: Formulation,
+    /// Elastic bounds along the path: path rows beyond the inner ones.
+    pub(super) path: Vec<ElasticBound<OnPath>>,
+    /// Those at t_f: boundary rows beyond the inner ones.
+    pub(super) boundary: Vec<ElasticBound<AtInstant>>,
+    /// Those of each way-point: rows of it beyond the inner ones.
+    pub(super) way_points: Vec<Vec<ElasticBound<AtInstant>>>,
+}
+
+/// A bound that has become two rows, value − e·scale and value + e·scale.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ElasticBound<Q> {
+    /// The bounded quantity.
+    pub quantity: Q,
+    /// The group whose amount e it takes.
+    pub group: usize,
+    pub bounds: Interval,
+}
+
+/// A quantity bounded along the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum OnPath {
+    State(usize),
+    Control(usize),
+    Row(usize),
+}
+
+/// A quantity bounded at t_f or at a way-point.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum AtInstant {
+    State(usize),
+    Row(usize),
+}
+
+impl<Q> ElasticBound<Q> {
+    /// Takes the bounds out of `from`, which is free from then on.
+    fn take(quantity: Q, group: usize, from: &mut Interval) -> Self {
+        Self {
+            quantity,
+            group,
+            bounds: std::mem::replace(from, Interval::FREE),
+        }
+    }
+}
+
+impl<'a, O: Ocp> Elastic<'a, O> {
+    /// `inner` with `groups` made elastic.
+    pub fn new(inner: &'a O, groups: Vec<LimitGroup>, regularization: f64) -> Self {
+        let mut base = inner.formulation();
+        let mut path = Vec::new();
+        let mut boundary = Vec::new();
+        let mut way_points = vec![Vec::new(); base.way_points.len()];
+        for (group, limit) in groups.iter().enumerate() {
+            for &member in &limit.members {
+                match member {
+                    Limited::State(i) => {
+                        let quantity = AtInstant::State(i);
+                        let from = &mut base.states[i].bounds;
+                        // The path rows do not reach t_f, which is a node but no point.
+                        if !base.terminal[i].is_fixed() {
+                            let bounds = *from;
+                            boundary.push(ElasticBound {
+                                quantity,
+                                group,
+                                bounds,
+                            });
+                        }
+                        path.push(ElasticBound::take(OnPath::State(i), group, from));
+                    }
+                    Limited::Control(i) => {
+                        let from = &mut base.controls[i].bounds;
+                        path.push(ElasticBound::take(OnPath::Control(i), group, from));
+                    }
+                    Limited::Path(i) => {
+                        let from = &mut base.path[i].bounds;
+                        path.push(ElasticBound::take(OnPath::Row(i), group, from));
+                    }
+                    Limited::Terminal(i) => {
+                        let from = &mut base.terminal[i];
+                        boundary.push(ElasticBound::take(AtInstant::State(i), group, from));
+                    }
+                    Limited::Boundary(b) => {
+                        let from = &mut base.boundary[b].bounds;
+                        boundary.push(ElasticBound::take(AtInstant::Row(b), group, from));
+                    }
+                    Limited::Passed(w, i) => {
+                        let from = &mut base.way_points[w].states[i];
+                        way_points[w].push(ElasticBound::take(AtInstant::State(i), group, from));
+                    }
+                    Limited::WayPoint(w, r) => {
+                        let from = &mut base.way_points[w].rows[r].bounds;
+                        way_points[w].push(ElasticBound::take(AtInstant::Row(r), group, from));
+                    }
+                }
+            }
+        }
+        Self {
+            inner,
+            groups,
+            regularization,
+            base,
+            path,
+            boundary,
+            way_points,
+        }
+    }
+
+    /// The limits that give way.
+    pub fn groups(&self) -> &[LimitGroup] {
+        &self.groups
+    }
+
+    /// Where in the extended state the amounts e_g stand, in units of each group's scale.
+    pub fn amounts(&self) -> std::ops::Range<usize> {
+        let n = self.base.states.len();
+        n..n + self.groups.len()
+    }
+
+    /// The two rows of one elastic bound: value − e·scale and value + e·scale.
+    pub(super) fn rows(&self, name: &str, group: usize, bounds: Interval) -> [Quantity; 2] {
+        let limit = &self.groups[group].name;
+        [
+            Quantity::new(
+                format!("{name} below {limit}"),
+                Interval::new(f64::NEG_INFINITY, bounds.upper),
+            ),
+            Quantity::new(
+                format!("{name} above {limit}"),
+                Interval::new(bounds.lower, f64::INFINITY),
+            ),
+        ]
+    }
+}

@@ -1,0 +1,68 @@
+//! What there is to decide in an optimal control problem, and within which bounds.
+
+use super::Interval;
+
+/// A named quantity with its bounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// What a person calls it ("joint 2 rate").
+    pub name: String,
+    /// Bounds along the whole path (states, controls, path rows) or at the ends (boundary rows).
+    pub bounds: Interval,
+}
+
+impl Quantity {
+    /// A quantity within bounds.
+    pub fn new(name: impl Into<String>, bounds: Interval) -> Self {
+        Self {
+            name: name.into(),
+            bounds,
+        }
+    }
+}
+
+/// What there is to decide and within which bounds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formulation {
+    /// States x, with their bounds along the path.
+    pub states: Vec<Quantity>,
+    /// Controls u, with their bounds.
+    pub controls: Vec<Quantity>,
+    /// Rows of the path constraint C, eq. (18), held at the collocation points.
+    pub path: Vec<Quantity>,
+    /// Rows of the boundary constraint E, eq. (18), beyond what `initial` and `terminal` say.
+    pub boundary: Vec<Quantity>,
+    /// Bounds of each state at t₀.
+    pub initial: Vec<Interval>,
+    /// Bounds of each state at t_f.
+    pub terminal: Vec<Interval>,
+    /// Bounds of the duration t_f − t₀ in s; fixed where both are equal. t₀ is 0.
+    pub duration: Interval,
+    /// What has to hold between the ends, in the order of the fractions, no two at the same.
+    pub way_points: Vec<WayPoint>,
+}
+
+/// Conditions at one instant between t₀ and t_f: an interior-point constraint.
+///
+/// The mesh has a breakpoint there, so that the states have a node and their costates may jump.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WayPoint {
+    /// Where it stands: fraction of the duration, above 0 and below 1.
+    pub fraction: f64,
+    /// Bounds of each state there, beyond those along the path.
+    pub states: Vec<Interval>,
+    /// Rows that are functions of the states there and of the time.
+    pub rows: Vec<Quantity>,
+}
+
+impl Formulation {
+    /// Number of states and of controls.
+    pub fn widths(&self) -> (usize, usize) {
+        (self.states.len(), self.controls.len())
+    }
+
+    /// Fractions of the duration at which the mesh needs a breakpoint, rising.
+    pub fn way_point_fractions(&self) -> Vec<f64> {
+        self.way_points.iter().map(|point| point.fraction).collect()
+    }
+}

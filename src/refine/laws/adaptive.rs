@@ -1,0 +1,228 @@
+//! The paper's adaptive law, eq. (29) to (32), segment by segment.
+//!
+//! Where the largest error of a segment is above the tolerance, the curvature (29) of the state
+//! with that error decides: the segment is divided where the curvature has a peak, and gets more
+//! points where it has none. Where the paper says nothing:
+//!
+//! - λ₁·⌈…⌉ of (30) and λ₂·⌈…⌉ of (32) are rounded to whole numbers, at least two parts and one
+//!   point.
+//! - A segment that (32) would give more than `max_points` is divided instead.
+//! - Each part of a divided segment gets `points`, or as many more as it takes for the parts
+//!   together to have no fewer points than the segment had: n parts of a segment of N points get
+//!   max(`points`, ⌈N/n⌉) each. A cut must not take away the accuracy that is there.
+//! - A segment that is accurate but exceeds a bound between its nodes is cut in two at the place of
+//!   the largest violation, which becomes a node.
+
+use super::raise::{decades, raised};
+use crate::collocation::{Mesh, MeshError};
+use crate::refine::curvature::Curvature;
+use crate::refine::{Assessment, Decision, Refined, RefinementLaw, Settings, Violation};
+
+/// Where in a segment a cut for the sake of a bound may be, |τ|: not so near its end that one of
+/// the parts is of no use.
+const OUTERMOST: f64 = 0.9;
+
+#[derive(Debug)]
+pub(super) struct Adaptive<'a>(pub &'a Settings);
+
+/// What becomes of one segment.
+enum Change {
+    Keep,
+    /// This many points.
+    Raise(usize),
+    /// Divided at these τ.
+    Divide(Vec<f64>),
+}
+
+impl RefinementLaw for Adaptive<'_> {
+    fn first_mesh(&self) -> Result<Mesh, MeshError> {
+        Mesh::uniform(self.0.segments, self.0.points)
+    }
+
+    fn is_last(&self, iteration: usize, _accurate: bool) -> bool {
+        iteration >= self.0.max_iterations
+    }
+
+    fn refine(&self, assessment: &Assessment<'_>) -> Option<Refined> {
+        let old = &assessment.trajectory.mesh;
+        let changes: Vec<Change> = (0..old.segments())
+            .map(|s| self.change(assessment, s))
+            .collect();
+        let decisions: Vec<Decision> = changes
+            .iter()
+            .map(|change| match change {
+                Change::Keep => Decision::Keep,
+                Change::Raise(points) => Decision::Raise(*points),
+                Change::Divide(cuts) => Decision::Divide(cuts.len() + 1),
+            })
+            .collect();
+        if decisions.iter().all(|d| *d == Decision::Keep) {
+            return None;
+        }
+        Some(Refined {
+            mesh: self.changed(old, &changes),
+            decisions,
+        })
+    }
+}
+
+impl Adaptive<'_> {
+    fn change(&self, assessment: &Assessment<'_>, s: usize) -> Change {
+        let settings = self.0;
+        let (state, error) = assessment.errors.worst(s);
+        if error <= settings.tolerance {
+            return self.cut_at_violation(&assessment.violations[s]);
+        }
+        let curvature = Curvature::new(assessment.trajectory, s, state);
+        let wanted = raised(settings, assessment.trajectory.mesh.rule(s).len(), error);
+        if curvature.ratio() > settings.r_max || wanted > settings.max_points {
+            let parts = settings.lambda1 * decades(error, settings.tolerance);
+            Change::Divide(curvature.cuts((parts.round() as usize).max(2)))
+        } else {
+            Change::Raise(wanted)
+        }
+    }
+
+    fn cut_at_violation(&self, violations: &[Violation]) -> Change {
+        violations
+            .iter()
+            .filter(|v| v.relative > self.0.bound_tolerance)
+            .max_by(|a, b| a.relative.total_cmp(&b.relative))
+            .map_or(Change::Keep, |worst| {
+                Change::Divide(vec![worst.tau.clamp(-OUTERMOST, OUTERMOST)])
+            })
+    }
+
+    /// `old` with the change of each segment.
+    fn changed(&self, old: &Mesh, changes: &[Change]) -> Mesh {
+        let mut breakpoints = vec![0.0];
+        let mut points = Vec::new();
+        for (s, change) in changes.iter().enumerate() {
+            let n = old.rule(s).len();
+            match change {
+                Change::Keep => points.push(n),
+                Change::Raise(more) => points.push(*more),
+                Change::Divide(cuts) => {
+                    let parts = cuts.len() + 1;
+                    breakpoints.extend(cuts.iter().map(|&tau| old.fraction(s, tau)));
+                    let each = self.0.points.max(n.div_ceil(parts));
+                    points.extend(std::iter::repeat_n(each, parts));
+                }
+            }
+            breakpoints.push(old.breakpoints()[s + 1]);
+        }
+        Mesh::new(breakpoints, &points).expect("cuts rise within their segment")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::refine::{Bounded, Errors};
+    use crate::transcription::Discretization;
+
+    /// ε_d = 10⁻⁵, λ₁ = 2, λ₂ = 3, r_max = 1.5, 5 points a part, at most 20.
+    fn settings() -> Settings {
+        Settings {
+            tolerance: 1e-5,
+            bound_tolerance: 1e-3,
+            lambda1: 2.0,
+            lambda2: 3.0,
+            r_max: 1.5,
+            points: 5,
+            max_points: 20,
+            ..Settings::default()
+        }
+    }
+
+    /// One segment with `points` points, the state a·τ², its error and a violation.
+    fn refine(points: usize, a: f64, error: f64, violation: Option<(f64, f64)>) -> Option<Refined> {
+        let mesh = Mesh::uniform(1, points).unwrap();
+        let trajectory = Discretization::sample(mesh, 1.0, 1, 0, |fraction, x, _| {
+            x[0] = a * (2.0 * fraction - 1.0).powi(2);
+        });
+        let violation = violation.map(|(tau, relative)| Violation {
+            what: Bounded::State(0),
+            segment: 0,
+            tau,
+            t: 0.0,
+            value: 0.0,
+            excess: relative,
+            relative,
+        });
+        let settings = settings();
+        Adaptive(&settings).refine(&Assessment {
+            trajectory: &trajectory,
+            errors: &Errors {
+                by_segment: vec![vec![error]],
+            },
+            violations: &[violation.into_iter().collect()],
+        })
+    }
+
+    #[test]
+    fn a_peak_of_curvature_divides_the_segment() {
+        // X = τ²: r = 2.25 > 1.5, see the test of the curvature. e = 4·10⁻⁴:
+        // ⌈−3.398 + 5⌉ = ⌈1.602⌉ = 2, n = 2·2 = 4 parts by (30). By (31) they end at
+        // τ = −0.393076, 0, 0.393076, fractions (τ + 1)/2 = 0.303462, 0.5, 0.696538.
+        let next = refine(5, 1.0, 4e-4, None).unwrap();
+        assert_eq!(next.decisions, [Decision::Divide(4)]);
+        assert_eq!(next.mesh.points_per_segment(), [5; 4]);
+        for (found, expected) in
+            next.mesh
+                .breakpoints()
+                .iter()
+                .zip([0.0, 0.303_461_9, 0.5, 0.696_538_1, 1.0])
+        {
+            assert!((found - expected).abs() < 1e-5, "{found}, {expected}");
+        }
+    }
+
+    #[test]
+    fn an_even_curvature_raises_the_degree() {
+        // X = τ²/10: ν = 0.2/(1 + 0.04τ²)^{3/2} falls from 0.2 to 0.1886 only, r < 1.06. e = 4·10⁻⁴:
+        // N* = 5 + 3·2 = 11 by (32).
+        let next = refine(5, 0.1, 4e-4, None).unwrap();
+        assert_eq!(next.decisions, [Decision::Raise(11)]);
+        assert_eq!(next.mesh.points_per_segment(), [11]);
+        assert_eq!(next.mesh.breakpoints(), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_division_leaves_no_fewer_points_than_there_were() {
+        // e = 2·10⁻⁵: one decade, n = 2 parts. Two of 5 points would be fewer than 14: ⌈14/2⌉ = 7.
+        let next = refine(14, 1.0, 2e-5, None).unwrap();
+        assert_eq!(next.mesh.points_per_segment(), [7, 7]);
+        // 18 + 3 = 21 is above the limit of 20 points: divided though the curvature is even.
+        let next = refine(18, 0.1, 2e-5, None).unwrap();
+        assert_eq!(next.mesh.points_per_segment(), [9, 9]);
+        // Four parts of 5 points are more than 16 already.
+        let next = refine(16, 0.1, 4e-4, None).unwrap();
+        assert_eq!(next.mesh.points_per_segment(), [5; 4]);
+        // An accurate segment of 15 points, cut for the sake of a bound: ⌈15/2⌉ = 8.
+        let next = refine(15, 1.0, 1e-9, Some((0.2, 0.01))).unwrap();
+        assert_eq!(next.mesh.points_per_segment(), [8, 8]);
+        assert_eq!(next.mesh.breakpoints(), [0.0, 0.6, 1.0]);
+    }
+
+    #[test]
+    fn bounds_ask_for_a_cut_where_the_error_asks_for_nothing() {
+        assert_eq!(refine(5, 1.0, 1e-5, None), None);
+        assert_eq!(refine(5, 1.0, 1e-9, Some((0.2, 1e-3))), None);
+        // Not nearer than |τ| = 0.9 to an end: fraction 0.95.
+        let next = refine(5, 1.0, 1e-9, Some((0.99, f64::INFINITY))).unwrap();
+        assert_eq!(next.decisions, [Decision::Divide(2)]);
+        assert_eq!(next.mesh.breakpoints(), [0.0, 0.95, 1.0]);
+    }
+
+    #[test]
+    fn an_error_that_is_not_a_number_is_not_within_the_tolerance() {
+        for error in [f64::NAN, f64::INFINITY] {
+            // As one decade: two parts, or 5 + 3 points.
+            let next = refine(5, 1.0, error, None).unwrap();
+            assert_eq!(next.decisions, [Decision::Divide(2)]);
+            let next = refine(5, 0.1, error, None).unwrap();
+            assert_eq!(next.decisions, [Decision::Raise(8)]);
+        }
+    }
+}
