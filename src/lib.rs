@@ -7,6 +7,7 @@ pub mod config;
 pub mod dynamics;
 pub mod nlp;
 pub mod ocp;
+pub mod parallel;
 pub mod planner;
 pub mod plot;
 pub mod refine;

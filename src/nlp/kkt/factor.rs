@@ -5,7 +5,7 @@ use super::noise;
 use super::part::{Inertia, Matrix, Part};
 use super::symbolic::Symbolic;
 use super::update::largest_finite;
-use crate::nlp::threads;
+use crate::parallel;
 
 /// The matrix has a value that is infinite or not a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -32,7 +32,7 @@ impl Factors {
     /// Factorises the matrix with these values of the analysed pattern's entries.
     ///
     /// A pivot is at least `threshold` times the largest entry of its column, or is delayed.
-    /// Large matrices are divided among the threads ([`threads`]); the factors are the same, bit by
+    /// Large matrices are divided among the threads ([`parallel`]); the factors are the same, bit by
     /// bit, for any number of them.
     ///
     /// # Errors
@@ -57,10 +57,10 @@ impl Factors {
             return Ok(Inertia::default());
         };
         if !below.is_empty() {
-            let count = below.len().min(threads::count());
+            let count = below.len().min(parallel::thread_count());
             // Workers have nothing of their own: a part has all that is needed.
             let mut workers = [(); PARTS];
-            threads::for_each(&mut workers[..count], below.iter_mut(), |(), part| {
+            parallel::for_each(&mut workers[..count], below.iter_mut(), |(), part| {
                 part.factor(&[], symbolic, &matrix);
             });
         }
