@@ -18,7 +18,7 @@ test-threads: ## four threads solving for a minute, against one thread
 	cargo test --release --locked --test ipopt for_a_minute -- --ignored
 
 miri: ## look for undefined behaviour and races in the helper threads (needs a nightly Rust with miri)
-	MIRIFLAGS=-Zmiri-ignore-leaks CARGO_TARGET_DIR=target/miri cargo +nightly miri test --locked --lib nlp::threads
+	MIRIFLAGS=-Zmiri-ignore-leaks CARGO_TARGET_DIR=target/miri cargo +nightly miri test --locked --lib parallel
 
 oracle: ## hold plans and golden values against Pinocchio, SPART and MuJoCo
 	scripts/oracle.sh

@@ -11,7 +11,7 @@ mod machine;
 use ffsm_ipopt::config::ProblemFile;
 use ffsm_ipopt::nlp::ipopt::{System, record};
 use ffsm_ipopt::nlp::kkt::{Factors, Symbolic};
-use ffsm_ipopt::nlp::threads;
+use ffsm_ipopt::parallel;
 use ffsm_ipopt::planner::Planner;
 use libloading::{Library, Symbol};
 use machine::{bandwidth, peak};
@@ -215,7 +215,7 @@ fn compare(systems: &[System], library: Option<&Library>) -> [Option<Times>; 2] 
 /// Operations of a factorisation and a solution against what the machine could do.
 fn roofline(symbolic: &Symbolic, ours: &Times, peak: f64) {
     let size = symbolic.factor_size() as f64;
-    let threads = symbolic.concurrency().min(threads::count());
+    let threads = symbolic.concurrency().min(parallel::thread_count());
     // A solution takes every number of the factors twice, for one multiplication and addition.
     for (what, operations, bytes, time, threads) in [
         (

@@ -9,6 +9,7 @@ pub mod integrate;
 mod largest;
 pub mod nlp;
 pub mod ocp;
+pub mod parallel;
 pub mod planner;
 pub mod plot;
 pub mod problem;

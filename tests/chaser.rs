@@ -4,7 +4,7 @@ mod program;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
-use ffsm_ipopt::nlp::threads;
+use ffsm_ipopt::parallel;
 use ffsm_ipopt::planner::{Plan, Planner, Status};
 use program::Folder;
 use std::fs;
@@ -125,7 +125,7 @@ fn plans_do_not_depend_on_the_number_of_threads() {
     problem.mesh.max_iterations = 1;
     let plan = |threads| {
         let threads = NonZero::new(threads).unwrap();
-        threads::with(threads, || Planner::new().plan(&problem).unwrap())
+        parallel::with_threads(threads, || Planner::new().plan(&problem).unwrap())
     };
     let one = plan(1);
     assert_eq!(one.linear_solver, "ours");

@@ -2,7 +2,7 @@
 
 use fastrand::Rng;
 use ffsm_ipopt::nlp::kkt::{Factors, Inertia, NotFinite, Pattern, PatternError, Symbolic};
-use ffsm_ipopt::nlp::threads;
+use ffsm_ipopt::parallel;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::num::NonZero;
 
@@ -410,7 +410,7 @@ fn what_is_cut_along_the_time_axis_has_the_factors_of_any_number_of_threads() {
     let solve = |threads| {
         let threads = NonZero::new(threads).unwrap();
         let mut factors = Factors::new(&symbolic);
-        let inertia = threads::with(threads, || {
+        let inertia = parallel::with_threads(threads, || {
             factors.factor(&symbolic, &values, 1e-8).unwrap()
         });
         let mut x = right.clone();

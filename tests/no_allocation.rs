@@ -3,7 +3,8 @@
 mod allocations;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
-use ffsm_ipopt::nlp::{Control, threads};
+use ffsm_ipopt::nlp::Control;
+use ffsm_ipopt::parallel;
 use ffsm_ipopt::planner::{Event, Planner, Status};
 use ffsm_ipopt::refine;
 use std::num::NonZero;
@@ -28,7 +29,7 @@ fn counts(name: &str, count: usize) -> Vec<[usize; 2]> {
         Control::Continue
     };
     let mut planner = Planner::new();
-    let plan = threads::with(NonZero::new(count).unwrap(), || {
+    let plan = parallel::with_threads(NonZero::new(count).unwrap(), || {
         planner.plan_with(&problem, None, &mut monitor).unwrap()
     });
     assert_eq!(plan.status, Status::Solved);

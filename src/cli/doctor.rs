@@ -2,7 +2,8 @@
 
 use super::failure::Failure;
 use super::{Outcome, terminal};
-use crate::nlp::{self, ipopt, threads};
+use crate::nlp::{self, ipopt};
+use crate::parallel;
 use crate::report::Lines;
 use crate::solution::Build;
 use clap::Args;
@@ -43,7 +44,7 @@ pub(super) fn run(_: &Arguments) -> Result<Outcome, Failure> {
         "cores",
         cores.map_or_else(|_| "unknown".into(), |cores| cores.to_string()),
     );
-    lines.add("threads", threads::count().to_string());
+    lines.add("threads", parallel::thread_count().to_string());
     terminal::print(&lines.finish())?;
     if solvers.is_empty() {
         Err(Failure::NoLinearSolver)

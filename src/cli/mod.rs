@@ -23,7 +23,7 @@ mod table2;
 mod terminal;
 mod verify;
 
-use crate::nlp::threads;
+use crate::parallel;
 use crate::solution::Build;
 use clap::{Parser, Subcommand};
 use std::num::NonZero;
@@ -88,7 +88,7 @@ fn threads_of(text: &str) -> Result<NonZero<usize>, &'static str> {
 pub fn run() -> ExitCode {
     let Cli { command, threads } = Cli::parse();
     if let Some(threads) = threads {
-        threads::set_default(threads);
+        parallel::set_thread_count(threads);
     }
     let result = match command {
         Command::Plan(arguments) => plan::run(&arguments),

@@ -1,12 +1,11 @@
 //! The nonlinear programme and its solver.
 //!
-//! [`Nlp`] is what a transcription offers; [`ipopt`] hands it to the system Ipopt and is the only
-//! safe wrapper over the `ipopt-sys` bindings; [`kkt`] is the linear solver that it is given, and
-//! [`threads`] says how many threads all of this may use. Nothing here knows optimal control.
+//! A transcription implements [`Nlp`]. [`ipopt`] solves it with the system Ipopt and is the only safe
+//! wrapper over the `ipopt-sys` bindings. [`kkt`] is the multifrontal linear solver that Ipopt is
+//! given. Nothing here knows optimal control.
 
 pub mod ipopt;
 pub mod kkt;
-pub mod threads;
 
 mod iterate;
 mod problem;

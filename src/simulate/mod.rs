@@ -13,7 +13,6 @@
 //! | `reference`, `tracking` | the planned joints, the controller |
 //! | `noise` | seeded random numbers |
 //! | `player`, `run` | a plan made ready, one run of it |
-//! | `parallel` | independent runs on all processors |
 //! | `figures` | what runs come to |
 //! | `fit` | platform parameters from measurements |
 
@@ -22,7 +21,6 @@ mod figures;
 pub mod fit;
 pub mod forces;
 mod noise;
-mod parallel;
 pub mod plane;
 mod platform;
 mod player;

@@ -2,13 +2,13 @@
 
 use super::SimulateError;
 use super::dynamics::{BASE, PlanarDynamics};
-use super::parallel::in_order;
 use super::plane::PlanarBodies;
 use super::platform::Platform;
 use super::reference::{PlannedBase, Reference};
 use super::run::{self, Run};
 use crate::dynamics::Tree;
 use crate::dynamics::space::Planar;
+use crate::parallel;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
 use crate::verify;
@@ -98,7 +98,7 @@ impl Player {
     /// # Errors
     /// [`SimulateError::Stuck`] where the motion of one runs away.
     pub fn runs(&self) -> Result<Vec<Run>, SimulateError> {
-        in_order(self.platform.repeats, &|index| self.run(index))
+        parallel::map(self.platform.repeats, &|index| self.run(index))
             .into_iter()
             .collect()
     }

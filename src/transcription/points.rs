@@ -4,8 +4,8 @@ use super::Patterns;
 use super::functions::Node;
 use super::node_derivatives::NodeDerivatives;
 use crate::autodiff::Function;
-use crate::nlp::threads;
 use crate::ocp::Ocp;
+use crate::parallel;
 
 /// Least work, in points times inputs squared, that is worth waking threads for.
 const LEAST_WORK: usize = 12_000;
@@ -52,7 +52,7 @@ impl<'a, O: Ocp> Points<'a, O> {
         };
         let mut workers = vec![worker(derivatives)];
         if work >= LEAST_WORK {
-            let count = threads::count().min(MOST);
+            let count = parallel::thread_count().min(MOST);
             let another = || worker(NodeDerivatives::new(node, patterns.node.clone()));
             workers.resize_with(count, another);
         }
@@ -127,7 +127,7 @@ impl<'a, O: Ocp> Points<'a, O> {
         let fractions = &self.fractions;
         let share = points.div_ceil(SHARES * count);
         let shares = out.chunks_mut(share * width).enumerate();
-        threads::for_each(&mut self.workers[..count], shares, |worker, (s, out)| {
+        parallel::for_each(&mut self.workers[..count], shares, |worker, (s, out)| {
             for (k, out) in (s * share..).zip(out.chunks_exact_mut(width)) {
                 iterate.load(k, fractions[k], &mut worker.inputs);
                 body(worker, k, out);

@@ -297,7 +297,7 @@ fn factorise(analysis: &mut Analysis, values: &[f64], control: &Control) -> Outc
         .map_err(|error| error.to_string())?;
     let mut info = empty();
     info.num_neg = inertia.negative as c_int;
-    info.num_two = inertia.pairs as c_int;
+    info.num_two = inertia.two_by_two as c_int;
     info.num_delay = inertia.delayed as c_int;
     info.matrix_rank = (symbolic.len() - inertia.zero) as c_int;
     info.num_factor = symbolic.factor_size() as _;

@@ -1,12 +1,12 @@
-//! Small fronts are merged where the fewer steps are worth the zeros they bring.
+//! Amalgamation: a front is merged with its parent where fewer fronts are worth the added zeros.
 
 use super::graph::Graph;
-use super::lanes::padded;
-use super::ordering::RawFronts;
+use super::ordering::AssemblyTree;
+use super::simd::padded;
 
-/// A front by its unknowns, in postorder.
+/// A front after amalgamation, by its unknowns.
 #[derive(Debug, Default)]
-pub(super) struct Merged {
+pub(super) struct MergedFront {
     pub pivots: Vec<u32>,
     pub border: Vec<u32>,
     pub parent: Option<usize>,
@@ -24,20 +24,20 @@ pub(super) fn cost(c: usize, b: usize) -> f64 {
     panel + search + update + contribution + solve + 120.0
 }
 
-/// Merges fronts into their parents and puts the tree into postorder.
-pub(super) fn merge(graph: &Graph, raw: &RawFronts) -> Vec<Merged> {
-    let count = raw.len();
+/// Merges fronts with their parents; returns the fronts in postorder.
+pub(super) fn merge(graph: &Graph, tree: &AssemblyTree) -> Vec<MergedFront> {
+    let count = tree.len();
     let unknowns = |nodes: &[u32]| -> usize {
         nodes
             .iter()
             .map(|&node| graph.weight(node as usize) as usize)
             .sum()
     };
-    let mut pivots: Vec<usize> = (0..count).map(|f| unknowns(raw.pivots.get(f))).collect();
-    let border: Vec<usize> = (0..count).map(|f| unknowns(raw.borders.get(f))).collect();
+    let mut pivots: Vec<usize> = (0..count).map(|f| unknowns(tree.pivots.get(f))).collect();
+    let border: Vec<usize> = (0..count).map(|f| unknowns(tree.borders.get(f))).collect();
     let mut into: Vec<usize> = (0..count).collect();
     for front in 0..count {
-        let Some(parent) = raw.parents[front] else {
+        let Some(parent) = tree.parents[front] else {
             continue;
         };
         let (c, b) = (pivots[front], border[front]);
@@ -55,18 +55,18 @@ pub(super) fn merge(graph: &Graph, raw: &RawFronts) -> Vec<Merged> {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); count];
     let mut roots = Vec::new();
     for front in (0..count).filter(|&front| into[front] == front) {
-        match raw.parents[front].map(|parent| into[parent]) {
+        match tree.parents[front].map(|parent| into[parent]) {
             Some(parent) => children[parent].push(front),
             None => roots.push(front),
         }
     }
     order_children(&mut children, &border);
-    let mut parts: Vec<Vec<usize>> = vec![Vec::new(); count];
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); count];
     for front in 0..count {
-        parts[into[front]].push(front);
+        members[into[front]].push(front);
     }
     let mut place = vec![usize::MAX; count];
-    let mut merged: Vec<Merged> = Vec::new();
+    let mut merged: Vec<MergedFront> = Vec::new();
     for front in postorder(&roots, &children) {
         place[front] = merged.len();
         for &child in &children[front] {
@@ -78,21 +78,21 @@ pub(super) fn merge(graph: &Graph, raw: &RawFronts) -> Vec<Merged> {
                 .flat_map(|&node| graph.unknowns(node as usize).iter().copied())
                 .collect()
         };
-        merged.push(Merged {
-            pivots: parts[front]
+        merged.push(MergedFront {
+            pivots: members[front]
                 .iter()
-                .flat_map(|&part| expand(raw.pivots.get(part)))
+                .flat_map(|&member| expand(tree.pivots.get(member)))
                 .collect(),
-            border: expand(raw.borders.get(front)),
+            border: expand(tree.borders.get(front)),
             parent: None,
         });
     }
     merged
 }
 
-/// Puts children in the order in which the fewest contributions wait at a time.
+/// Orders children so that the waiting contribution blocks take the least memory.
 ///
-/// Liu's rule (doi:10.1145/7921.11325): first those that need the most beyond what they leave.
+/// Liu's rule (doi:10.1145/7921.11325): by decreasing peak memory less the memory that stays.
 fn order_children(children: &mut [Vec<usize>], border: &[usize]) {
     let left: Vec<usize> = border.iter().map(|&b| padded(b) * padded(b)).collect();
     let mut peak = vec![0; border.len()];

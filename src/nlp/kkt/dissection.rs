@@ -1,63 +1,64 @@
-//! Cuts through the time axis: few unknowns whose elimination can wait, so that the stretches
-//! between them have nothing to do with each other.
+//! Nested dissection along the time axis: small separators, eliminated last, between domains that
+//! have no entries with each other.
 //!
-//! In a transcription the variables come point after point, so that their own order is the time
-//! axis; multipliers and slacks stand where the variables of their rows do. Of all places to cut,
-//! those are taken where the fewest unknowns hold both sides together: the states at the end of a
-//! segment.
+//! In a transcription the variables come point after point, so that their order is that of time;
+//! multipliers and slacks are placed where the variables of their rows are. Separators are taken
+//! where they are smallest: for a transcription, the states at the end of a segment.
 
 use super::Pattern;
 use super::graph::Graph;
-use super::pairs::first_multiplier;
+use super::matching::first_multiplier;
 
-/// Stretches the time axis is cut into: the most that cuts are found for.
-const STRETCHES: [usize; 3] = [8, 4, 2];
+/// Numbers of domains to try: the first with small separators everywhere is taken.
+const DOMAINS: [usize; 3] = [8, 4, 2];
 
-/// Matrices with fewer unknowns, or fewer entries for each, stay in one piece: to move the factors
-/// from one processor core to another takes longer than to make them.
-const LEAST: usize = 1500;
-const LEAST_ENTRIES: usize = 7;
+/// Matrices with fewer unknowns are one domain: moving the factors from one processor core to another
+/// takes longer than making them.
+const MIN_UNKNOWNS: usize = 1500;
 
-/// A cut may be this far from where it would be in the middle, as a part of a stretch.
+/// Likewise matrices with fewer entries for each unknown.
+const MIN_ENTRIES_PER_UNKNOWN: usize = 7;
+
+/// How far a separator may be from its even place, as a part of a domain.
 const WINDOW: f64 = 0.25;
 
-/// Most unknowns a cut may hold, as a part of a stretch.
-const WIDEST: f64 = 0.1;
+/// Most unknowns of a separator, as a part of a domain.
+const MAX_SEPARATOR: f64 = 0.1;
 
-/// Of each node, the round in which it may be eliminated: 1 for those in a cut, else 0; and the
-/// number of stretches, 1 where nothing was cut.
+/// The stage in which each node is eliminated, 0 in a domain and 1 in a separator, and the number of
+/// domains.
 ///
-/// Nodes for which `dense` is true are left out: they wait for all in any case.
-pub(super) fn rounds(pattern: &Pattern, graph: &Graph, dense: &[bool]) -> (Vec<u8>, usize) {
-    let mut round = vec![0; graph.len()];
+/// Nodes for which `dense` is true are left out: they are eliminated last in any case.
+pub(super) fn dissect(pattern: &Pattern, graph: &Graph, dense: &[bool]) -> (Vec<u8>, usize) {
+    let mut stage = vec![0; graph.len()];
     let unknowns = pattern.len();
-    if unknowns < LEAST || pattern.nonzeros() < LEAST_ENTRIES * unknowns {
-        return (round, 1);
+    if unknowns < MIN_UNKNOWNS || pattern.nonzeros() < MIN_ENTRIES_PER_UNKNOWN * unknowns {
+        return (stage, 1);
     }
-    let order = along_time(pattern, graph, dense);
+    let order = time_order(pattern, graph, dense);
     let cuts = Cuts::new(graph, &order, dense);
-    for stretches in STRETCHES {
-        if let Some(places) = cuts.places(stretches) {
+    for domains in DOMAINS {
+        if let Some(places) = cuts.places(domains) {
             for place in places {
-                for node in cuts.holding(graph, &order, dense, place) {
-                    round[node] = 1;
+                for node in cuts.separator(graph, &order, dense, place) {
+                    stage[node] = 1;
                 }
             }
-            return (round, stretches);
+            return (stage, domains);
         }
     }
-    (round, 1)
+    (stage, 1)
 }
 
-/// Nodes by their place along the time axis; dense ones last.
-fn along_time(pattern: &Pattern, graph: &Graph, dense: &[bool]) -> Vec<u32> {
+/// Nodes in the order of time; dense ones last.
+fn time_order(pattern: &Pattern, graph: &Graph, dense: &[bool]) -> Vec<u32> {
     let primal = first_multiplier(pattern);
     let mut links = vec![0_u32; pattern.len()];
     for (i, j) in pattern.entries().filter(|(i, j)| i != j) {
         links[i] += 1;
         links[j] += 1;
     }
-    // A slack has no link but that to its row's multiplier.
+    // A slack has one off-diagonal entry, with the multiplier of its row.
     let is_placed = |node: usize| {
         let first = graph.unknowns(node)[0] as usize;
         first < primal && links[first] > 1
@@ -87,13 +88,14 @@ fn along_time(pattern: &Pattern, graph: &Graph, dense: &[bool]) -> Vec<u32> {
     order
 }
 
-/// What holds the two sides of each cut together.
+/// The cuts between two neighbours in the order of time, with the size of their separators.
 struct Cuts {
+    /// Place of each node in the order.
     position: Vec<u32>,
     /// Weight of all nodes up to each position.
     up_to: Vec<u32>,
-    /// Weight of the nodes before each cut with neighbours behind it, and of those behind it with
-    /// neighbours before it; cut p is behind position p.
+    /// The two separators of each cut: the weight of the nodes before it with neighbours behind it,
+    /// and of the nodes behind it with neighbours before it. Cut p is behind position p.
     width: [Vec<u32>; 2],
 }
 
@@ -138,22 +140,23 @@ impl Cuts {
         }
     }
 
-    /// Cuts into so many stretches, where none of them is too wide.
-    fn places(&self, stretches: usize) -> Option<Vec<usize>> {
-        let stretch = f64::from(*self.up_to.last()?) / stretches as f64;
-        let places = (1..stretches).map(|cut| {
-            let aim = cut as f64 * stretch;
-            let place = self.narrowest(aim - WINDOW * stretch..aim + WINDOW * stretch)?;
-            (f64::from(self.width(place)) <= WIDEST * stretch).then_some(place)
+    /// The cuts that make this many domains; `None` where one of the separators is too large.
+    fn places(&self, domains: usize) -> Option<Vec<usize>> {
+        let domain = f64::from(*self.up_to.last()?) / domains as f64;
+        let places = (1..domains).map(|cut| {
+            let aim = cut as f64 * domain;
+            let place = self.narrowest(aim - WINDOW * domain..aim + WINDOW * domain)?;
+            (f64::from(self.width(place)) <= MAX_SEPARATOR * domain).then_some(place)
         });
         places.collect()
     }
 
+    /// Weight of the smaller separator.
     fn width(&self, place: usize) -> u32 {
         self.width[0][place].min(self.width[1][place])
     }
 
-    /// The cut with the fewest unknowns among those with so much weight before them.
+    /// The cut with the smallest separator among those with a weight in `before` before them.
     fn narrowest(&self, before: std::ops::Range<f64>) -> Option<usize> {
         let middle = 0.5 * (before.start + before.end);
         let places = (0..self.up_to.len()).filter(|&p| before.contains(&f64::from(self.up_to[p])));
@@ -165,8 +168,8 @@ impl Cuts {
         })
     }
 
-    /// Nodes that hold the sides of a cut together, those of the side that has fewer unknowns.
-    fn holding<'a>(
+    /// The nodes of the smaller separator of a cut.
+    fn separator<'a>(
         &'a self,
         graph: &'a Graph,
         order: &'a [u32],

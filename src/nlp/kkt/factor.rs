@@ -1,11 +1,11 @@
-//! Numerical factorisation, part by part of the tree.
+//! Numerical factorisation, subtree by subtree.
 
-use super::division::PARTS;
-use super::noise;
-use super::part::{Inertia, Matrix, Part};
+use super::partition::MAX_SUBTREES;
+use super::subtree::{Inertia, Matrix, Subtree};
 use super::symbolic::Symbolic;
 use super::update::largest_finite;
-use crate::nlp::threads;
+use super::zero_pivots;
+use crate::parallel;
 
 /// The matrix has a value that is infinite or not a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -15,31 +15,36 @@ pub struct NotFinite;
 /// The factors of a matrix, and the memory to make them.
 #[derive(Debug, Clone, Default)]
 pub struct Factors {
-    pub(super) parts: Vec<Part>,
+    /// As `Symbolic::subtrees`.
+    pub(super) subtrees: Vec<Subtree>,
+    /// Right-hand side of one front.
     pub(super) vector: Vec<f64>,
 }
 
 impl Factors {
     /// Memory for matrices of this pattern; delayed pivots may make it grow.
     pub fn new(symbolic: &Symbolic) -> Self {
-        let sizes = symbolic.parts.iter();
+        let sizes = symbolic.subtrees.iter();
         Self {
-            parts: sizes.map(|size| Part::new(size, symbolic.len())).collect(),
+            subtrees: sizes
+                .map(|size| Subtree::new(size, symbolic.len()))
+                .collect(),
             vector: Vec::new(),
         }
     }
 
     /// Factorises the matrix with these values of the analysed pattern's entries.
     ///
-    /// A pivot is at least `threshold` times the largest entry of its column, or is delayed.
-    /// Large matrices are divided among the threads ([`threads`]); the factors are the same, bit by
-    /// bit, for any number of them.
+    /// A pivot is at least `threshold` (0 to 1) times the largest entry of its column; where there is
+    /// none, the column is delayed to the parent front. Large matrices are divided among several
+    /// threads ([`parallel`]); the factors are the same, bit by bit, for any number of them.
     ///
     /// # Errors
-    /// [`NotFinite`], the factors then being of no use.
+    /// [`NotFinite`] where a value is infinite or not a number; the factors are then those of the
+    /// matrix before.
     ///
     /// # Panics
-    /// Where `values` are not as many as the pattern's entries.
+    /// Where the number of `values` is not that of the pattern's entries.
     pub fn factor(
         &mut self,
         symbolic: &Symbolic,
@@ -51,30 +56,31 @@ impl Factors {
         let matrix = Matrix {
             values,
             threshold,
-            suspected: noise::suspected(largest),
+            zero_screen: zero_pivots::screen(largest),
         };
-        let Some((top, below)) = self.parts.split_last_mut() else {
+        let Some((top, below)) = self.subtrees.split_last_mut() else {
             return Ok(Inertia::default());
         };
         if !below.is_empty() {
-            let count = below.len().min(threads::count());
-            // Workers have nothing of their own: a part has all that is needed.
-            let mut workers = [(); PARTS];
-            threads::for_each(&mut workers[..count], below.iter_mut(), |(), part| {
-                part.factor(&[], symbolic, &matrix);
+            let count = below.len().min(parallel::thread_count());
+            // Workers have no memory of their own: a subtree has all that is needed.
+            let mut workers = [(); MAX_SUBTREES];
+            parallel::for_each(&mut workers[..count], below.iter_mut(), |(), subtree| {
+                subtree.factor(&[], symbolic, &matrix);
             });
         }
         top.factor(below, symbolic, &matrix);
-        let rows = self.parts.iter().map(|part| part.rows).max().unwrap_or(0);
+        let rows = self.subtrees.iter().map(|subtree| subtree.rows).max();
+        let rows = rows.unwrap_or(0);
         if self.vector.len() < rows {
             self.vector.resize(rows, 0.0);
         }
-        let found = self.parts.iter().map(|part| part.inertia);
-        Ok(found.fold(Inertia::default(), |sum, part| Inertia {
-            negative: sum.negative + part.negative,
-            zero: sum.zero + part.zero,
-            delayed: sum.delayed + part.delayed,
-            pairs: sum.pairs + part.pairs,
+        let found = self.subtrees.iter().map(|subtree| subtree.inertia);
+        Ok(found.fold(Inertia::default(), |sum, of| Inertia {
+            negative: sum.negative + of.negative,
+            zero: sum.zero + of.zero,
+            delayed: sum.delayed + of.delayed,
+            two_by_two: sum.two_by_two + of.two_by_two,
         }))
     }
 }

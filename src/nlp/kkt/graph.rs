@@ -1,4 +1,4 @@
-//! The adjacency graph that is ordered: one node an unknown, or a pair of them.
+//! The adjacency graph that is ordered: a node is one unknown, or two matched ones.
 
 use super::Pattern;
 
@@ -13,9 +13,9 @@ pub(super) struct Graph {
 }
 
 impl Graph {
-    /// The graph of `pattern`, with the unknowns of each pair in one node.
+    /// The graph of `pattern` with matched unknowns compressed into one node.
     ///
-    /// `partner[i]` is the unknown that `i` is paired with, or `i` itself.
+    /// `partner[i]` is the unknown that `i` is matched with, or `i` itself.
     pub(super) fn new(pattern: &Pattern, partner: &[u32]) -> Self {
         let n = pattern.len();
         let mut node_of = vec![0_u32; n];
@@ -66,6 +66,7 @@ impl Graph {
         &self.neighbours[self.start[node] as usize..self.start[node + 1] as usize]
     }
 
+    /// Number of unknowns of a node.
     pub(super) fn weight(&self, node: usize) -> u32 {
         self.count[node].into()
     }

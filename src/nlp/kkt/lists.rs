@@ -1,4 +1,4 @@
-//! Many short lists in one stretch of memory.
+//! Many short lists in one array.
 
 /// Lists of numbers, one after another; each can shrink, and grow again to what it once was.
 #[derive(Debug, Clone, Default)]

@@ -1,28 +1,45 @@
-//! Our own direct solver for sparse symmetric indefinite systems: a multifrontal LDLᵀ.
+//! A direct solver for sparse symmetric indefinite systems: a multifrontal LDLᵀ factorisation.
 //!
-//! [`Symbolic`] is the analysis of a sparsity pattern, made once; [`Factors`] takes the values of
-//! one matrix after another and solves with them, without allocating once it is warm. Pivots of
-//! order one and two are chosen by size among the unknowns of a front and delayed to its parent
-//! where none is large enough, so that the inertia is that of the matrix.
+//! [`Symbolic`] is the analysis of a sparsity pattern, made once. [`Factors`] factorises matrices with
+//! that pattern one after another and solves with them, without allocating once it is warm. Pivots of
+//! order one and two are chosen by size among the fully summed unknowns of a front, and delayed to
+//! its parent where none is large enough; so the inertia is exact.
+//!
+//! | file | does |
+//! | --- | --- |
+//! | `pattern` | the sparsity of the lower triangle |
+//! | `matching` | a variable for each multiplier, as a pivot of order two |
+//! | `graph`, `lists` | the adjacency graph that is ordered, and lists for it |
+//! | `dissection` | separators along the time axis |
+//! | `ordering` | minimum degree and the assembly tree |
+//! | `amalgamation` | small fronts merged with their parents |
+//! | `partition` | the tree in subtrees that can be factorised at the same time |
+//! | `symbolic` | all of the analysis |
+//! | `factor` | all of the factorisation |
+//! | `subtree` | the fronts of one subtree, assembled and eliminated |
+//! | `panel` | threshold pivoting in one front |
+//! | `zero_pivots` | which columns are rounding error |
+//! | `update`, `simd` | dense kernels on vectors |
+//! | `solve` | forward and backward substitution |
 
 mod amalgamation;
 mod dissection;
-mod division;
 mod factor;
 mod graph;
-mod lanes;
 mod lists;
-mod noise;
+mod matching;
 mod ordering;
-mod pairs;
 mod panel;
-mod part;
+mod partition;
 mod pattern;
+mod simd;
 mod solve;
+mod subtree;
 mod symbolic;
 mod update;
+mod zero_pivots;
 
 pub use factor::{Factors, NotFinite};
-pub use part::Inertia;
 pub use pattern::{Pattern, PatternError};
+pub use subtree::Inertia;
 pub use symbolic::Symbolic;

@@ -2,7 +2,8 @@
 //!
 //! Approximate external degrees, element absorption, mass elimination and indistinguishable nodes
 //! as in Amestoy, Davis and Duff (doi:10.1137/S0895479894278952), on weighted nodes: a node is one
-//! unknown, or two that make a natural pivot of order two together.
+//! unknown, or two that are matched to be a pivot of order two. Constrained as CAMD is: nodes of an
+//! earlier stage are eliminated first.
 
 use super::graph::Graph;
 use super::lists::Lists;
@@ -10,25 +11,26 @@ use super::lists::Lists;
 /// No node, no front.
 const NONE: u32 = u32::MAX;
 
-/// Fronts as minimum degree leaves them, parents after children.
+/// The fronts that minimum degree makes, parents after children.
 #[derive(Debug, Clone, Default)]
-pub(super) struct RawFronts {
+pub(super) struct AssemblyTree {
     /// Nodes eliminated in each front, in order.
     pub pivots: Lists,
-    /// Nodes that this connects and that are eliminated later, in no order.
+    /// Nodes of each front that are eliminated later, in no order.
     pub borders: Lists,
-    /// Index of the front that takes each one's contribution.
+    /// Index of each front's parent, which assembles its contribution block.
     pub parents: Vec<Option<usize>>,
 }
 
-impl RawFronts {
+impl AssemblyTree {
     /// Number of fronts.
     pub(super) fn len(&self) -> usize {
         self.parents.len()
     }
 }
 
-/// Which nodes have so many neighbours that they are ordered last, out of the quotient graph.
+/// Dense nodes: those with so many neighbours that they are left out of the quotient graph and
+/// eliminated last.
 pub(super) fn dense(graph: &Graph) -> Vec<bool> {
     let limit = ((10.0 * (graph.len() as f64).sqrt()) as usize).max(16);
     (0..graph.len())
@@ -36,14 +38,14 @@ pub(super) fn dense(graph: &Graph) -> Vec<bool> {
         .collect()
 }
 
-/// Fronts of `graph` in elimination order.
+/// The assembly tree of `graph`.
 ///
-/// Nodes of a lower `group` are eliminated before those of a higher one, `dense` ones last of all.
-pub(super) fn fronts(graph: &Graph, group: &[u8], dense: &[bool]) -> RawFronts {
-    let mut quotient = Quotient::new(graph, group, dense);
-    let groups = group.iter().copied().max().unwrap_or(0);
-    for group in 0..=groups {
-        while let Some(pivot) = quotient.least(group) {
+/// Nodes of a lower `stage` are eliminated before those of a higher one, `dense` ones last of all.
+pub(super) fn minimum_degree(graph: &Graph, stage: &[u8], dense: &[bool]) -> AssemblyTree {
+    let mut quotient = Quotient::new(graph, stage, dense);
+    let stages = stage.iter().copied().max().unwrap_or(0);
+    for stage in 0..=stages {
+        while let Some(pivot) = quotient.least(stage) {
             quotient.eliminate(pivot);
         }
     }
@@ -55,7 +57,7 @@ pub(super) fn fronts(graph: &Graph, group: &[u8], dense: &[bool]) -> RawFronts {
 }
 
 /// Adds the dense nodes as a last front, and to the border of every front they touch.
-fn with_dense(graph: &Graph, dense: &[bool], mut fronts: RawFronts) -> RawFronts {
+fn with_dense(graph: &Graph, dense: &[bool], mut fronts: AssemblyTree) -> AssemblyTree {
     let root = fronts.len();
     let mut touched: Vec<Vec<u32>> = vec![Vec::new(); root];
     let mut borders = Lists::default();
@@ -85,37 +87,43 @@ fn with_dense(graph: &Graph, dense: &[bool], mut fronts: RawFronts) -> RawFronts
     fronts
 }
 
-/// The quotient graph: live variables, and elements standing for eliminated ones.
+/// The quotient graph: live variables, and elements, each of which stands for eliminated ones.
 struct Quotient<'a> {
-    group: &'a [u8],
+    stage: &'a [u8],
     /// Unknowns behind a live variable; 0 where it is eliminated or has joined another.
     weight: Vec<u32>,
     /// Variables next to a variable by an entry of the matrix.
     variables: Lists,
-    /// Elements next to a variable. Each has come in the place of a variable at least, so that there
-    /// is room for them where there was for those.
+    /// Elements next to a variable. Each replaces at least one variable of the list, so that there is
+    /// always room.
     elements: Lists,
-    /// Variables of the element that each front has become.
+    /// Variables of each front's element.
     members: Lists,
     /// Weight of an element's live variables.
     size: Vec<u32>,
     /// Front of an element; `NONE` where there is no such element.
     front: Vec<u32>,
-    /// Next node that has joined the same variable.
+    /// Next node that has joined the same variable; `NONE` at the end of the chain.
     joined: Vec<u32>,
+    /// Last node of each variable's chain.
     last_joined: Vec<u32>,
+    /// Approximate external degree of a variable.
     degree: Vec<u32>,
-    /// Variables by degree, one set of lists a group.
+    /// First variable of each degree, for each stage.
     heads: Vec<Vec<u32>>,
+    /// No variable of a stage has a lower degree than this.
     lowest: Vec<usize>,
+    /// Neighbours in the list of variables with the same degree.
     next: Vec<u32>,
     previous: Vec<u32>,
+    /// Nodes with `mark == stamp` are marked.
     mark: Vec<u32>,
     stamp: u32,
-    /// |element \ current element|, and the stamp it is of.
+    /// (stamp, |element \ current element|): the weight holds for that stamp.
     outside: Vec<(u32, u32)>,
+    /// Weight of all live variables.
     left: u32,
-    fronts: RawFronts,
+    fronts: AssemblyTree,
     /// Variables of the current element.
     current: Vec<u32>,
     /// Nodes eliminated with it.
@@ -125,20 +133,20 @@ struct Quotient<'a> {
 }
 
 impl<'a> Quotient<'a> {
-    fn new(graph: &Graph, group: &'a [u8], dense: &[bool]) -> Self {
+    fn new(graph: &Graph, stage: &'a [u8], dense: &[bool]) -> Self {
         let nodes = graph.len();
         let weight: Vec<u32> = (0..nodes)
             .map(|node| if dense[node] { 0 } else { graph.weight(node) })
             .collect();
         let left: u32 = weight.iter().sum();
-        let groups = usize::from(group.iter().copied().max().unwrap_or(0)) + 1;
+        let stages = usize::from(stage.iter().copied().max().unwrap_or(0)) + 1;
         let mut variables = Lists::default();
         for node in 0..nodes {
             let neighbours = graph.neighbours(node).iter().copied();
             variables.add(neighbours.filter(|&other| !dense[other as usize]));
         }
         let mut quotient = Self {
-            group,
+            stage,
             elements: variables.emptied(),
             variables,
             members: Lists::default(),
@@ -147,15 +155,15 @@ impl<'a> Quotient<'a> {
             joined: vec![NONE; nodes],
             last_joined: (0..nodes as u32).collect(),
             degree: vec![0; nodes],
-            heads: vec![vec![NONE; left as usize + 1]; groups],
-            lowest: vec![0; groups],
+            heads: vec![vec![NONE; left as usize + 1]; stages],
+            lowest: vec![0; stages],
             next: vec![NONE; nodes],
             previous: vec![NONE; nodes],
             mark: vec![0; nodes],
             stamp: 0,
             outside: vec![(0, 0); nodes],
             left,
-            fronts: RawFronts::default(),
+            fronts: AssemblyTree::default(),
             current: Vec::new(),
             pivots: Vec::new(),
             hashes: Vec::new(),
@@ -171,22 +179,22 @@ impl<'a> Quotient<'a> {
     }
 
     fn insert(&mut self, node: usize) {
-        let group = usize::from(self.group[node]);
+        let stage = usize::from(self.stage[node]);
         let degree = self.degree[node] as usize;
-        let head = self.heads[group][degree];
+        let head = self.heads[stage][degree];
         self.next[node] = head;
         self.previous[node] = NONE;
         if head != NONE {
             self.previous[head as usize] = node as u32;
         }
-        self.heads[group][degree] = node as u32;
-        self.lowest[group] = self.lowest[group].min(degree);
+        self.heads[stage][degree] = node as u32;
+        self.lowest[stage] = self.lowest[stage].min(degree);
     }
 
     fn remove(&mut self, node: usize) {
         let (previous, next) = (self.previous[node], self.next[node]);
         if previous == NONE {
-            self.heads[usize::from(self.group[node])][self.degree[node] as usize] = next;
+            self.heads[usize::from(self.stage[node])][self.degree[node] as usize] = next;
         } else {
             self.next[previous as usize] = next;
         }
@@ -195,15 +203,15 @@ impl<'a> Quotient<'a> {
         }
     }
 
-    /// The variable of least degree in `group`, where one is left.
-    fn least(&mut self, group: u8) -> Option<usize> {
-        let group = usize::from(group);
-        while self.lowest[group] < self.heads[group].len() {
-            let head = self.heads[group][self.lowest[group]];
+    /// The variable of least degree in `stage`, where one is left.
+    fn least(&mut self, stage: u8) -> Option<usize> {
+        let stage = usize::from(stage);
+        while self.lowest[stage] < self.heads[stage].len() {
+            let head = self.heads[stage][self.lowest[stage]];
             if head != NONE {
                 return Some(head as usize);
             }
-            self.lowest[group] += 1;
+            self.lowest[stage] += 1;
         }
         None
     }
@@ -230,7 +238,7 @@ impl<'a> Quotient<'a> {
         self.elements.clear(from);
     }
 
-    /// Eliminates `pivot`: it becomes an element, a front.
+    /// Eliminates `pivot`, which becomes an element and a front.
     fn eliminate(&mut self, pivot: usize) {
         let index = self.fronts.len();
         self.remove(pivot);
@@ -243,13 +251,13 @@ impl<'a> Quotient<'a> {
         pivots.clear();
         pivots.extend(Self::nodes(&self.joined, pivot as u32));
 
-        // Mass elimination: what is connected to nothing but this element goes with it.
+        // Mass elimination: a variable with no neighbour but this element is eliminated with it.
         members.retain(|&member| {
             let variable = member as usize;
             self.prune(variable, pivot, index, stamp);
             let alone =
                 self.elements.get(variable).is_empty() && self.variables.get(variable).is_empty();
-            if alone && self.group[variable] == self.group[pivot] {
+            if alone && self.stage[variable] == self.stage[pivot] {
                 pivots.extend(Self::nodes(&self.joined, member));
                 self.remove(variable);
                 size -= self.weight[variable];
@@ -305,7 +313,7 @@ impl<'a> Quotient<'a> {
         members
     }
 
-    /// For every element next to a member: the weight of its variables that are no members.
+    /// For every element next to a member: the weight of its variables that are not members.
     fn measure_outside(&mut self, members: &[u32]) -> u32 {
         let stamp = self.stamp;
         for &member in members {
@@ -325,7 +333,7 @@ impl<'a> Quotient<'a> {
         stamp
     }
 
-    /// Takes out of a member's lists what the new element stands for.
+    /// Removes from a member's lists what the new element covers.
     fn prune(&mut self, variable: usize, pivot: usize, index: usize, stamp: u32) {
         let (front, outside) = (&mut self.front, &self.outside);
         let parents = &mut self.fronts.parents;
@@ -335,7 +343,7 @@ impl<'a> Quotient<'a> {
                 return false;
             }
             if outside[e].1 == 0 {
-                // All of it lies inside the new element, which absorbs it.
+                // Element absorption: all its variables are in the new element.
                 let front = std::mem::replace(&mut front[e], NONE);
                 parents[front as usize] = Some(index);
                 return false;
@@ -380,7 +388,7 @@ impl<'a> Quotient<'a> {
         }
     }
 
-    /// Joins members with the same neighbours.
+    /// Merges indistinguishable members: those with the same neighbours.
     fn merge_indistinguishable(&mut self, members: &mut Vec<u32>) {
         let mut hashes = std::mem::take(&mut self.hashes);
         hashes.sort_unstable();
@@ -399,14 +407,14 @@ impl<'a> Quotient<'a> {
                 }
                 let stamp = self.new_stamp();
                 let lists = [self.variables.get(first), self.elements.get(first)];
-                // Elements and variables share their numbers, but no live number is both.
+                // Elements and variables are both numbered by nodes, and no live node is both.
                 for &entry in lists.into_iter().flatten() {
                     self.mark[entry as usize] = stamp;
                 }
                 for &(_, other) in &hashes[i + 1..end] {
                     let other = other as usize;
                     let same = self.weight[other] > 0
-                        && self.group[other] == self.group[first]
+                        && self.stage[other] == self.stage[first]
                         && self.variables.get(other).len() == self.variables.get(first).len()
                         && self.elements.get(other).len() == self.elements.get(first).len()
                         && [self.variables.get(other), self.elements.get(other)]

@@ -1,63 +1,67 @@
 //! Elimination of a front's pivots: threshold pivoting with pivots of order one and two.
 //!
-//! A panel is column-major: its pivots' rows, padded to whole vectors, then its border's rows,
-//! padded likewise; one column a pivot. While columns are eliminated, the pivot block is kept as
-//! a full square, so that a column is always contiguous. Columns are brought up to date a few at a
-//! time, just before they are searched; in these the rows already eliminated are zero from the
-//! whole vector on that the search begins with, so that it need not leave them out.
+//! A panel holds the fully summed columns of a front, by columns: the pivots' rows, padded to whole
+//! vectors, then the border's rows, padded likewise. While columns are eliminated, the pivot block is
+//! kept as a full square, so that a column is always contiguous.
 //!
-//! Tests for pivots as in Duff and Reid's multifrontal method (doi:10.1145/356044.356047) and
+//! Updates are delayed: a few columns at a time get the updates of all earlier pivots, just before
+//! they are searched. The search begins at a whole vector, which may hold rows already eliminated;
+//! those are set to zero, so that they are never the largest.
+//!
+//! The pivot tests are those of Duff and Reid's multifrontal method (doi:10.1145/356044.356047) and of
 //! Hogg and Scott (doi:10.1145/2513109.2513112).
 
-use super::lanes::{LANES, Vector};
-use super::noise::Noise;
-use super::update::{axpy, axpy_largest, axpy2, axpy2_largest, largest, subtract};
+use super::simd::{LANES, Vector};
+use super::update::{
+    Eliminated, Target, axpy, axpy_largest, axpy2, axpy2_largest, largest, rank_update,
+};
+use super::zero_pivots::ZeroTest;
 
-/// Pivots with this much of their columns' largest entry are preferred.
+/// Pivots of at least this part of their column's largest entry are preferred.
 const PREFERRED: f64 = 1e-4;
 
-/// What counts as zero.
+/// A pivot this small counts as zero.
 const SMALL: f64 = 1e-20;
 
-/// Columns brought up to date together.
+/// Columns that are updated together.
 const BLOCK: usize = 4;
 
 /// Most columns that are searched for pivots together.
-const MOST: usize = 24;
+const MAX_SEARCHED: usize = 24;
 
-/// What has come of a panel's pivots.
+/// What has become of a panel's columns.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Counts {
+pub(super) struct PivotCounts {
     /// Columns eliminated; the rest are delayed.
     pub eliminated: usize,
-    /// Negative eigenvalues of the eliminated block.
+    /// Negative eigenvalues of the pivots.
     pub negative: usize,
-    /// Columns that were zero.
+    /// Zero pivots.
     pub zero: usize,
     /// Pivots of order two.
-    pub pairs: usize,
+    pub two_by_two: usize,
 }
 
 /// A front while its pivots are eliminated.
 pub(super) struct Panel<'a> {
     /// `ld` rows for each of `columns` columns.
     pub a: &'a mut [f64],
-    /// D Lᵀ of the columns eliminated, transposed: as large as `a`, and four more.
+    /// D Lᵀ of the columns eliminated, transposed: as large as `a`, and four numbers more.
     pub w: &'a mut [f64],
     pub ld: usize,
     pub columns: usize,
     /// Unknown of each column.
     pub unknowns: &'a mut [u32],
-    /// Inverse pivots: diagonal, and what links a column to the next.
+    /// Inverse pivots: the diagonal entry, and the one that links a column to the next.
     pub inverse: &'a mut [[f64; 2]],
-    /// Least part of its column's largest entry a pivot may be.
+    /// Pivot threshold: the least part of its column's largest entry that a pivot may be.
     pub threshold: f64,
-    pub noise: Noise<'a>,
-    /// Largest entry of the column to be tried next, its diagonal included, where it is known.
+    pub zero_test: ZeroTest<'a>,
+    /// Largest entry of the column to be searched next, its diagonal included, where it is known.
     pub next: Option<f64>,
 }
 
-/// A pivot found.
+/// A pivot found, by its columns.
 enum Pivot {
     Zero(usize),
     One(usize),
@@ -65,14 +69,16 @@ enum Pivot {
 }
 
 impl Panel<'_> {
-    /// Eliminates what can be; in `last` there is no parent to delay to, and all are.
+    /// Eliminates the columns that have a pivot; in a root, which has no parent to delay the others
+    /// to, eliminates all.
     #[inline(always)]
-    pub(super) fn factor<V: Vector>(&mut self, last: bool) -> Counts {
-        let mut counts = Counts::default();
+    pub(super) fn factor<V: Vector>(&mut self, is_root: bool) -> PivotCounts {
+        let mut counts = PivotCounts::default();
+        // Columns from here on have failed since the last sweep began.
         let mut untried = self.columns;
         let mut progress = false;
-        let mut most = MOST;
-        // Pivots that the columns behind the group in work are up to date with.
+        let mut most = MAX_SEARCHED;
+        // Pivots whose updates the columns behind the searched group have got.
         let mut applied = 0;
         loop {
             let from = counts.eliminated;
@@ -80,18 +86,18 @@ impl Panel<'_> {
             // A few columns at a time, as long as not too many have failed.
             while end < untried && end - counts.eliminated < most {
                 let next = untried.min(end + BLOCK);
-                self.bring_up::<V>(applied, counts.eliminated, end, next);
+                self.apply_pivots::<V>(applied, counts.eliminated, end, next);
                 self.eliminate::<V>(&mut counts, end, next);
                 end = next;
             }
             let done = counts.eliminated;
-            // At the end, all that is left was searched after the last of the pivots.
+            // At the end, every column left was searched after the last pivot was eliminated.
             if done == self.columns || end == self.columns {
                 break;
             }
-            self.bring_up::<V>(applied, done, end, self.columns);
+            self.apply_pivots::<V>(applied, done, end, self.columns);
             applied = done;
-            // What failed goes behind what has not been tried.
+            // Columns that failed go behind those not yet tried.
             for failed in (done..end).rev() {
                 untried -= 1;
                 self.swap(failed, untried);
@@ -103,48 +109,49 @@ impl Panel<'_> {
             if progress {
                 progress = false;
             } else if most < self.columns - done {
-                // A partner may have been in another group.
+                // The partner for a pivot of order two may have been in another group.
                 most = self.columns;
             } else {
                 break;
             }
             untried = self.columns;
         }
-        if last {
-            self.force::<V>(&mut counts);
+        if is_root {
+            self.eliminate_rest::<V>(&mut counts);
         }
         counts
     }
 
-    /// Eliminates what can be of the columns up to `end`; those before `next` have failed before.
+    /// Eliminates the columns before `end` that have a pivot; those before `next` have failed before.
     #[inline(always)]
-    fn eliminate<V: Vector>(&mut self, counts: &mut Counts, mut next: usize, end: usize) {
+    fn eliminate<V: Vector>(&mut self, counts: &mut PivotCounts, mut next: usize, end: usize) {
         while counts.eliminated < end {
             let k = counts.eliminated;
-            let Some(pivot) = self.find::<V>(k, next, end, self.threshold) else {
+            let Some(pivot) = self.find_pivot::<V>(k, next, end, self.threshold) else {
                 break;
             };
-            // Those that failed before column t now stand before its place.
+            // Columns that failed before column t now stand before its place.
             let (Pivot::Zero(t) | Pivot::One(t) | Pivot::Two(t, _)) = pivot;
-            self.pivot::<V>(pivot, counts, end);
+            self.eliminate_pivot::<V>(pivot, counts, end);
             next = (t + 1).max(counts.eliminated);
         }
     }
 
-    /// Eliminates all that is left, whatever its size.
+    /// Eliminates all columns left, however small their pivots.
     #[inline(always)]
-    fn force<V: Vector>(&mut self, counts: &mut Counts) {
+    fn eliminate_rest<V: Vector>(&mut self, counts: &mut PivotCounts) {
         let end = self.columns;
         while counts.eliminated < end {
             let k = counts.eliminated;
-            let found = self.find::<V>(k, k, end, 0.0);
-            // Cancellation in every pivot of order two: take the diagonal as it is.
-            self.pivot::<V>(found.unwrap_or(Pivot::One(k)), counts, end);
+            let found = self.find_pivot::<V>(k, k, end, 0.0);
+            // Every pivot of order two cancels: take the diagonal entry as it is.
+            self.eliminate_pivot::<V>(found.unwrap_or(Pivot::One(k)), counts, end);
         }
     }
 
+    /// Eliminates one pivot and counts it.
     #[inline(always)]
-    fn pivot<V: Vector>(&mut self, pivot: Pivot, counts: &mut Counts, end: usize) {
+    fn eliminate_pivot<V: Vector>(&mut self, pivot: Pivot, counts: &mut PivotCounts, end: usize) {
         let k = counts.eliminated;
         match pivot {
             Pivot::Zero(t) => {
@@ -165,15 +172,15 @@ impl Panel<'_> {
                 self.swap(t, k);
                 self.swap(r, k + 1);
                 let [a, b, c] = self.corner(k);
-                let both = (a / b.abs()) * (c / b.abs()) < 1.0;
-                counts.negative += if both {
+                let opposite_signs = (a / b.abs()) * (c / b.abs()) < 1.0;
+                counts.negative += if opposite_signs {
                     1
                 } else if a + c < 0.0 {
                     2
                 } else {
                     0
                 };
-                counts.pairs += 1;
+                counts.two_by_two += 1;
                 self.eliminate_two::<V>(k, end);
                 counts.eliminated += 2;
             }
@@ -190,7 +197,7 @@ impl Panel<'_> {
         ]
     }
 
-    /// Makes row and column `k` zero: rounding error may not spread.
+    /// Sets row and column `k` to zero, so that their rounding error does not spread.
     #[cold]
     fn clear(&mut self, k: usize) {
         self.inverse[k] = [0.0; 2];
@@ -205,7 +212,7 @@ impl Panel<'_> {
     /// The first pivot among columns `next..end`, then `k..next`, that passes the preferred
     /// threshold; else the first that passes `threshold`.
     #[inline(always)]
-    fn find<V: Vector>(
+    fn find_pivot<V: Vector>(
         &mut self,
         k: usize,
         next: usize,
@@ -220,20 +227,20 @@ impl Panel<'_> {
         for t in (next..end).chain(k..next.min(end)) {
             let column = &self.a[t * ld..(t + 1) * ld];
             let d = column[t];
-            // The diagonal may count: a threshold is never above one. No closure, which would be
-            // compiled without the processor's vectors.
+            // The diagonal may be the largest: a threshold is never above one. No closure here: it
+            // would be compiled without AVX2.
             let most = match known.take() {
                 Some(most) => most,
                 None => largest::<V>(&column[from..]),
             };
-            if self.noise.is(self.unknowns[t], most) {
+            if self.zero_test.is_zero(self.unknowns[t], most) {
                 return Some(Pivot::Zero(t));
             }
             if d.abs() > SMALL && d.abs() >= preferred * most {
                 return Some(Pivot::One(t));
             }
             if let Some(r) = self.partner(k, t, end) {
-                let (determinant, growth) = self.pair::<V>(t, r, from, end);
+                let (determinant, growth) = self.test_two_by_two::<V>(t, r, from, end);
                 if determinant >= preferred * growth {
                     return Some(Pivot::Two(t, r));
                 }
@@ -248,7 +255,8 @@ impl Panel<'_> {
         second
     }
 
-    /// The column of `k..end` that column `t` has its largest entry with.
+    /// The column of `k..end` with the largest off-diagonal entry of column `t`, where that is not
+    /// zero.
     #[inline(always)]
     fn partner(&self, k: usize, t: usize, end: usize) -> Option<usize> {
         let column = &self.a[t * self.ld..(t + 1) * self.ld];
@@ -261,10 +269,17 @@ impl Panel<'_> {
         (r != t).then_some(r)
     }
 
-    /// What decides on a pivot of order two of columns `t` and `r`: its determinant, negative where
-    /// that cancels, and the growth, of which the threshold's part is to be less.
+    /// The test of a pivot of order two in columns `t` and `r`: its determinant, negative where that
+    /// is lost to cancellation, and a bound on the growth. The pivot passes where the determinant is
+    /// at least the threshold times the growth.
     #[inline(always)]
-    fn pair<V: Vector>(&self, t: usize, r: usize, from: usize, end: usize) -> (f64, f64) {
+    fn test_two_by_two<V: Vector>(
+        &self,
+        t: usize,
+        r: usize,
+        from: usize,
+        end: usize,
+    ) -> (f64, f64) {
         let ld = self.ld;
         let (a, b, c) = (self.a[t * ld + t], self.a[t * ld + r], self.a[r * ld + r]);
         let scale = 1.0 / a.abs().max(b.abs()).max(c.abs());
@@ -273,16 +288,22 @@ impl Panel<'_> {
         if determinant < SMALL.max(0.5 * diagonal.abs().max(link.abs())) {
             return (-1.0, 1.0);
         }
-        let most_t = self.without::<V>(t, [t, r], from, end);
-        let most_r = self.without::<V>(r, [t, r], from, end);
+        let most_t = self.largest_except::<V>(t, [t, r], from, end);
+        let most_r = self.largest_except::<V>(r, [t, r], from, end);
         let growth_t = (c.abs() * most_t + b.abs() * most_r) * scale;
         let growth_r = (a.abs() * most_r + b.abs() * most_t) * scale;
         (determinant, growth_t.max(growth_r))
     }
 
-    /// Largest entry of a column from row `from` on but for those of two rows before `end`.
+    /// Largest entry of a column from row `from` on, two rows before `end` left out.
     #[inline(always)]
-    fn without<V: Vector>(&self, column: usize, rows: [usize; 2], from: usize, end: usize) -> f64 {
+    fn largest_except<V: Vector>(
+        &self,
+        column: usize,
+        rows: [usize; 2],
+        from: usize,
+        end: usize,
+    ) -> f64 {
         let column = &self.a[column * self.ld..(column + 1) * self.ld];
         let (head, tail) = column.split_at(end.next_multiple_of(LANES));
         let mut most = largest::<V>(tail);
@@ -293,7 +314,9 @@ impl Panel<'_> {
         most
     }
 
-    /// Exchanges columns and rows `i` and `j`; D Lᵀ is needed for rows not yet tried only.
+    /// Exchanges columns and rows `i` and `j`.
+    ///
+    /// `w` is left as it is: only its rows of columns not yet tried are read again.
     #[inline(always)]
     fn swap(&mut self, i: usize, j: usize) {
         if i == j {
@@ -347,7 +370,7 @@ impl Panel<'_> {
         let ld = self.ld;
         let from = k / LANES * LANES;
         let [a, b, c] = self.corner(k);
-        // As in LAPACK's dsytf2: scaled by the link, which is not small.
+        // As in LAPACK's dsytf2: scaled by the off-diagonal entry, which is not small.
         let (over_a, over_c) = (a / b, c / b);
         let scale = 1.0 / (b * (over_a * over_c - 1.0));
         let inverse = [over_c * scale, -scale, over_a * scale];
@@ -408,9 +431,9 @@ impl Panel<'_> {
         }
     }
 
-    /// Brings columns `first..end` up to date with pivots `from..done`.
+    /// Applies the updates of pivots `from..done` to columns `first..end`.
     #[inline(always)]
-    fn bring_up<V: Vector>(&mut self, from: usize, done: usize, first: usize, end: usize) {
+    fn apply_pivots<V: Vector>(&mut self, from: usize, done: usize, first: usize, end: usize) {
         if from == done || first == end {
             return;
         }
@@ -419,17 +442,18 @@ impl Panel<'_> {
         let rows = done / LANES * LANES;
         for (tile, columns) in right[..(end - first) * ld].chunks_mut(4 * ld).enumerate() {
             let j = first + 4 * tile;
+            let pivots = Eliminated {
+                l: &left[from * ld..done * ld],
+                w: &self.w[from * ld..done * ld + 4],
+                ld,
+            };
             // Four rows of D Lᵀ; those beyond the last column are not used.
-            subtract::<V, false>(
-                &left[from * ld..done * ld],
-                &self.w[from * ld..done * ld + 4],
+            let target = Target {
+                columns: &mut *columns,
                 ld,
-                rows,
-                j,
-                columns,
-                ld,
-                rows,
-            );
+                row: rows,
+            };
+            rank_update::<V, false>(pivots, rows, j, target);
             for column in columns.chunks_exact_mut(ld) {
                 column[rows..done].fill(0.0);
             }

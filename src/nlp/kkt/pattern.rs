@@ -1,6 +1,7 @@
 //! The sparsity of a symmetric matrix: its lower triangle by columns.
 
-/// Why a pattern cannot be.
+/// Why lists are not a pattern.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum PatternError {
     /// Column starts do not begin at 0, fall, or do not end at the number of entries.

@@ -1,77 +1,80 @@
-//! Solution with the factors: forward, by the pivots, and backward.
+//! Solution with the factors: forward substitution, division by the pivots, backward substitution.
 
 use super::factor::Factors;
-#[cfg(target_arch = "x86_64")]
-use super::lanes::Avx2;
-use super::lanes::{LANES, Plain, Vector, padded};
-use super::part::{Part, Place};
+use super::simd::{Kernel, LANES, Vector, dispatch, padded};
+use super::subtree::{FrontPlace, Subtree};
 use super::symbolic::{Front, Symbolic};
 use super::update::{axpy, axpy4, dot, dot4};
 
 impl Factors {
     /// Overwrites the right-hand side `x` by the solution.
     ///
-    /// Unknowns of zero pivots are set to zero.
+    /// `x` has one number for each unknown. Unknowns with zero pivots are set to zero.
     ///
     /// # Panics
-    /// Where `x` is shorter than the matrix, or nothing was factorised yet.
+    /// Where `x` is shorter than the order of the matrix, or nothing was factorised yet.
     pub fn solve(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
         assert!(x.len() >= symbolic.len());
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
-        {
-            // SAFETY: the processor has both.
-            unsafe { self.solve_avx2(symbolic, x) };
-            return;
-        }
-        self.solve_with::<Plain>(symbolic, x);
-    }
-
-    /// # Safety
-    /// The processor has AVX2 and FMA.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    unsafe fn solve_avx2(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
-        self.solve_with::<Avx2>(symbolic, x);
+        dispatch(Solve {
+            factors: self,
+            symbolic,
+            x,
+        });
     }
 
     #[inline(always)]
     fn solve_with<V: Vector>(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
-        let Self { parts, vector } = self;
-        for (part, size) in parts.iter().zip(&symbolic.parts) {
+        let Self { subtrees, vector } = self;
+        for (subtree, size) in subtrees.iter().zip(&symbolic.subtrees) {
             for (front, place) in symbolic.fronts[size.fronts.clone()]
                 .iter()
-                .zip(&part.places)
+                .zip(&subtree.places)
             {
-                forward::<V>(symbolic, part, front, place, vector, x);
+                forward::<V>(symbolic, subtree, front, place, vector, x);
             }
         }
-        for (part, size) in parts.iter().zip(&symbolic.parts).rev() {
+        for (subtree, size) in subtrees.iter().zip(&symbolic.subtrees).rev() {
             let fronts = symbolic.fronts[size.fronts.clone()].iter();
-            for (front, place) in fronts.zip(&part.places).rev() {
-                backward::<V>(symbolic, part, front, place, vector, x);
+            for (front, place) in fronts.zip(&subtree.places).rev() {
+                backward::<V>(symbolic, subtree, front, place, vector, x);
             }
         }
     }
 }
 
-/// Eliminates a front's unknowns from the right-hand side, and divides by its pivots.
+/// The solution, for whatever vectors the processor has.
+struct Solve<'a> {
+    factors: &'a mut Factors,
+    symbolic: &'a Symbolic,
+    x: &'a mut [f64],
+}
+
+impl Kernel for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        self.factors.solve_with::<V>(self.symbolic, self.x);
+    }
+}
+
+/// Forward substitution with one front, and division by its pivots.
 #[inline(always)]
 fn forward<V: Vector>(
     symbolic: &Symbolic,
-    part: &Part,
+    subtree: &Subtree,
     front: &Front,
-    place: &Place,
+    place: &FrontPlace,
     vector: &mut [f64],
     x: &mut [f64],
 ) {
     let pivots = padded(place.columns);
     let ld = pivots + padded(front.border);
-    let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
-    let inverse = &part.inverse[place.pivots..place.pivots + place.columns];
+    let unknowns = &subtree.unknowns[place.pivots..place.pivots + place.columns];
+    let inverse = &subtree.inverse[place.pivots..place.pivots + place.columns];
     let y = gather(vector, pivots, unknowns, x);
     y[pivots..ld].fill(0.0);
-    let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
+    let panel = &subtree.panels[place.panel..place.panel + ld * place.eliminated];
     let (y, _) = y[..ld].as_chunks_mut::<LANES>();
     for (group, columns) in panel.chunks(LANES * ld).enumerate() {
         let (y, below) = y[group..].split_at_mut(1);
@@ -117,26 +120,26 @@ fn forward<V: Vector>(
     }
 }
 
-/// A front's unknowns from those of its border.
+/// Backward substitution with one front: its unknowns from those of its border.
 #[inline(always)]
 fn backward<V: Vector>(
     symbolic: &Symbolic,
-    part: &Part,
+    subtree: &Subtree,
     front: &Front,
-    place: &Place,
+    place: &FrontPlace,
     vector: &mut [f64],
     x: &mut [f64],
 ) {
     let pivots = padded(place.columns);
     let ld = pivots + padded(front.border);
-    let unknowns = &part.unknowns[place.pivots..place.pivots + place.columns];
+    let unknowns = &subtree.unknowns[place.pivots..place.pivots + place.columns];
     let y = gather(vector, pivots, unknowns, x);
     let border = &symbolic.rows[front.rows + front.pivots..][..front.border];
     for (y, &unknown) in y[pivots..].iter_mut().zip(border) {
         *y = x[unknown as usize];
     }
     y[pivots + front.border..ld].fill(0.0);
-    let panel = &part.panels[place.panel..place.panel + ld * place.eliminated];
+    let panel = &subtree.panels[place.panel..place.panel + ld * place.eliminated];
     let (y, _) = y[..ld].as_chunks_mut::<LANES>();
     for (group, columns) in panel.chunks(LANES * ld).enumerate().rev() {
         let (y, below) = y[group..].split_at_mut(1);
@@ -167,15 +170,15 @@ fn backward<V: Vector>(
     }
 }
 
-/// Whole vectors from the `first` on of [`LANES`] columns of length `ld`.
+/// [`LANES`] columns of length `ld`, from the vector with number `first` on.
 #[inline(always)]
 fn columns_of(columns: &[f64], ld: usize, first: usize) -> [&[[f64; LANES]]; LANES] {
     let column = |k: usize| &columns[k * ld..(k + 1) * ld].as_chunks().0[first..];
     [column(0), column(1), column(2), column(3)]
 }
 
-/// A front's own part of the right-hand side in the first of its `pivots` rows, the rest of those
-/// being zero.
+/// Copies the right-hand side of `unknowns` to the first rows of `vector`, and fills up to `pivots`
+/// rows with zeros.
 #[inline(always)]
 fn gather<'v>(vector: &'v mut [f64], pivots: usize, unknowns: &[u32], x: &[f64]) -> &'v mut [f64] {
     vector[unknowns.len()..pivots].fill(0.0);

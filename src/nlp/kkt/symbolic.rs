@@ -1,76 +1,87 @@
-//! What a sparsity pattern alone decides: fronts, their tree, and where every entry goes.
+//! Symbolic analysis, of the sparsity pattern alone: the fronts, their assembly tree, and the place of
+//! every entry.
 
-use super::amalgamation::{self, Merged};
+use super::amalgamation::{self, MergedFront};
 use super::graph::Graph;
-use super::lanes::padded;
-use super::{Pattern, dissection, division, ordering, pairs};
+use super::simd::padded;
+use super::{Pattern, dissection, matching, ordering, partition};
 use std::ops::Range;
 
-/// One front: the dense matrix of some pivots and the unknowns they are connected to.
+/// One front: a dense matrix of pivots, the fully summed unknowns, and of the border, the later
+/// unknowns that they are connected to.
 #[derive(Debug, Clone)]
 pub(super) struct Front {
-    /// Unknowns, in `Symbolic::rows`: pivots, then border.
+    /// Start of its unknowns, in `Symbolic::rows`: pivots, then border.
     pub rows: usize,
+    /// Number of pivots, without delayed ones.
     pub pivots: usize,
+    /// Number of unknowns of the border.
     pub border: usize,
-    /// Matrix entries that are assembled here, in `Symbolic::entries`.
+    /// Entries of the matrix that are assembled here, in `Symbolic::entries`.
     pub entries: Range<usize>,
-    /// Places of the border in the parent, in `Symbolic::relative`.
+    /// Start of the border's relative indices, in `Symbolic::relative`.
     pub relative: usize,
-    /// In `Symbolic::children`.
+    /// Its children, in `Symbolic::children`.
     pub children: Range<usize>,
-    /// Which of the two arenas holds its contribution, and where.
+    /// Which of the two arenas of its subtree holds its contribution block.
     pub arena: usize,
+    /// Start of the contribution block in that arena.
     pub contribution: usize,
     pub is_root: bool,
 }
 
-/// What a part of the tree needs.
+/// The fronts of a subtree and the memory that it needs without delayed pivots.
 #[derive(Debug, Clone, Default)]
-pub(super) struct PartSize {
+pub(super) struct SubtreeSize {
     pub fronts: Range<usize>,
-    /// Length of each arena of contributions.
+    /// Length of each arena of contribution blocks.
     pub arenas: [usize; 2],
-    /// Length of all panels without delayed pivots.
+    /// Length of all panels.
     pub panels: usize,
+    /// Number of pivots.
     pub pivots: usize,
     /// Most rows of a front, and most pivots, padded.
     pub largest: [usize; 2],
 }
 
-/// Analysis of a pattern: made once, used for every matrix that has it.
+/// The analysis of a pattern: made once, used for every matrix with that pattern.
 #[derive(Debug)]
 pub struct Symbolic {
     pub(super) pattern: Pattern,
+    /// Children before parents, subtree by subtree.
     pub(super) fronts: Vec<Front>,
+    /// Unknowns of all fronts.
     pub(super) rows: Vec<u32>,
     /// (entry of the matrix, place in the front's panel without delayed pivots).
     pub(super) entries: Vec<(u32, u32)>,
-    /// Local rows of the parent, padding of its pivots left out.
+    /// Relative indices: for each row of a border its row in the parent, not counting the padding
+    /// of the parent's pivots.
     pub(super) relative: Vec<u32>,
+    /// Children of all fronts.
     pub(super) children: Vec<u32>,
-    /// Those that can be worked on at the same time, then the one that waits for them.
-    pub(super) parts: Vec<PartSize>,
-    flops: f64,
+    /// Subtrees that can be factorised at the same time; the last is the top of the tree, which
+    /// waits for them.
+    pub(super) subtrees: Vec<SubtreeSize>,
+    multiplications: f64,
 }
 
 impl Symbolic {
     /// Analyses `pattern`.
     ///
-    /// Where it is that of an interior-point method, its multipliers last, pivots of order two are
-    /// foreseen; in other matrices they are found all the same.
+    /// In a pattern of an interior-point method, with the multipliers last, pivots of order two are
+    /// foreseen by matching. In others they are found during the factorisation all the same.
     pub fn new(pattern: Pattern) -> Self {
-        let partner = pairs::partners(&pattern);
+        let partner = matching::pivot_matching(&pattern);
         let graph = Graph::new(&pattern, &partner);
         let dense = ordering::dense(&graph);
-        let (rounds, stretches) = dissection::rounds(&pattern, &graph, &dense);
-        let fronts = ordering::fronts(&graph, &rounds, &dense);
-        let merged = amalgamation::merge(&graph, &fronts);
-        let (merged, parts) = division::divide(merged, stretches);
-        Self::build(pattern, &merged, &parts)
+        let (stage, domains) = dissection::dissect(&pattern, &graph, &dense);
+        let tree = ordering::minimum_degree(&graph, &stage, &dense);
+        let merged = amalgamation::merge(&graph, &tree);
+        let (merged, subtrees) = partition::partition(merged, domains);
+        Self::build(pattern, &merged, &subtrees)
     }
 
-    fn build(pattern: Pattern, merged: &[Merged], parts: &[Range<usize>]) -> Self {
+    fn build(pattern: Pattern, merged: &[MergedFront], subtrees: &[Range<usize>]) -> Self {
         let n = pattern.len();
         let mut position = vec![0_u32; n];
         let mut front_of = vec![0_u32; n];
@@ -88,22 +99,23 @@ impl Symbolic {
             entries: Vec::new(),
             relative: Vec::new(),
             children: Vec::new(),
-            parts: Vec::with_capacity(parts.len()),
-            flops: 0.0,
+            subtrees: Vec::with_capacity(subtrees.len()),
+            multiplications: 0.0,
             pattern,
         };
         symbolic.lay_out(merged, &position);
         symbolic.place_entries(&position, &front_of);
         symbolic.place_relative(merged);
         symbolic.place_arenas(merged);
-        for fronts in parts {
-            let part = symbolic.measure(fronts.clone());
-            symbolic.parts.push(part);
+        for fronts in subtrees {
+            let size = symbolic.place_contributions(fronts.clone());
+            symbolic.subtrees.push(size);
         }
         symbolic
     }
 
-    fn lay_out(&mut self, merged: &[Merged], position: &[u32]) {
+    /// Fronts with their unknowns and children.
+    fn lay_out(&mut self, merged: &[MergedFront], position: &[u32]) {
         let mut children: Vec<Vec<u32>> = vec![Vec::new(); merged.len()];
         for (index, front) in merged.iter().enumerate() {
             if let Some(parent) = front.parent {
@@ -129,11 +141,11 @@ impl Symbolic {
                 is_root: front.parent.is_none(),
             });
             let (c, b) = (c as f64, b as f64);
-            self.flops += c * (c * c / 3.0 + c * b + b * b);
+            self.multiplications += c * (c * c / 3.0 + c * b + b * b);
         }
     }
 
-    /// Where in its front's panel every entry of the matrix goes.
+    /// The place of every entry of the matrix in its front's panel.
     fn place_entries(&mut self, position: &[u32], front_of: &[u32]) {
         let owner = |i: usize, j: usize| {
             if position[i] < position[j] {
@@ -150,7 +162,7 @@ impl Symbolic {
             start[front + 1] += start[front];
             self.fronts[front].entries = start[front]..start[front + 1];
         }
-        // Sources by front first, then targets front by front.
+        // First the entries by front, each with its later unknown; then its place in the panel.
         self.entries = vec![(0, 0); self.pattern.nonzeros()];
         let mut columns = vec![0_u32; self.pattern.nonzeros()];
         for (source, (i, j)) in self.pattern.entries().enumerate() {
@@ -179,8 +191,8 @@ impl Symbolic {
         }
     }
 
-    /// Where in its parent each row of a border stands.
-    fn place_relative(&mut self, merged: &[Merged]) {
+    /// Relative indices of every border.
+    fn place_relative(&mut self, merged: &[MergedFront]) {
         let mut local = vec![0_u32; self.pattern.len()];
         let total: usize = self.fronts.iter().map(|front| front.border).sum();
         self.relative = vec![0; total];
@@ -209,8 +221,9 @@ impl Symbolic {
         }
     }
 
-    /// Which arena contributions stand in: children in the other one than their parent.
-    fn place_arenas(&mut self, merged: &[Merged]) {
+    /// The arena of each contribution block: not that of its parent's, so that children are read
+    /// while the parent's is written.
+    fn place_arenas(&mut self, merged: &[MergedFront]) {
         for index in (0..self.fronts.len()).rev() {
             self.fronts[index].arena = match merged[index].parent {
                 Some(parent) => 1 - self.fronts[parent].arena,
@@ -219,24 +232,24 @@ impl Symbolic {
         }
     }
 
-    /// Where the contributions of a part's fronts stand, and what memory it needs.
-    fn measure(&mut self, fronts: Range<usize>) -> PartSize {
-        let mut part = PartSize {
+    /// Places the contribution blocks of a subtree's fronts; returns the memory it needs.
+    fn place_contributions(&mut self, fronts: Range<usize>) -> SubtreeSize {
+        let mut size = SubtreeSize {
             fronts: fronts.clone(),
-            ..PartSize::default()
+            ..SubtreeSize::default()
         };
         let mut arenas = [Arena::default(), Arena::default()];
         for index in fronts.clone() {
             let front = &mut self.fronts[index];
             let (pivots, border) = (padded(front.pivots), padded(front.border));
             front.contribution = arenas[front.arena].take(border * border);
-            part.pivots += front.pivots;
-            part.panels += (pivots + border) * front.pivots;
-            part.largest[0] = part.largest[0].max(pivots + border);
-            part.largest[1] = part.largest[1].max(pivots);
+            size.pivots += front.pivots;
+            size.panels += (pivots + border) * front.pivots;
+            size.largest[0] = size.largest[0].max(pivots + border);
+            size.largest[1] = size.largest[1].max(pivots);
             for child in self.fronts[index].children.clone() {
                 let child = self.children[child] as usize;
-                // That of another part stays where it is.
+                // The block of another subtree stays where it is.
                 if fronts.contains(&child) {
                     let child = &self.fronts[child];
                     let length = padded(child.border) * padded(child.border);
@@ -244,13 +257,13 @@ impl Symbolic {
                 }
             }
         }
-        part.arenas = arenas.map(|arena| arena.end);
-        part
+        size.arenas = arenas.map(|arena| arena.end);
+        size
     }
 
-    /// The part a front belongs to.
-    pub(super) fn part_of(&self, front: usize) -> usize {
-        self.parts.partition_point(|part| part.fronts.end <= front)
+    /// The subtree that a front belongs to.
+    pub(super) fn subtree_of(&self, front: usize) -> usize {
+        self.subtrees.partition_point(|of| of.fronts.end <= front)
     }
 
     /// Order of the matrix.
@@ -273,27 +286,28 @@ impl Symbolic {
         self.fronts.len()
     }
 
-    /// Numbers kept for the factors, padding included, if no pivot is delayed.
+    /// Numbers that the factors take, padding included, if no pivot is delayed.
     pub fn factor_size(&self) -> usize {
-        self.parts.iter().map(|part| part.panels).sum()
+        self.subtrees.iter().map(|of| of.panels).sum()
     }
 
-    /// Stretches of the matrix that are factorised at the same time where threads are free.
+    /// Number of subtrees that are factorised at the same time where threads are free.
     pub fn concurrency(&self) -> usize {
-        (self.parts.len() - 1).max(1)
+        (self.subtrees.len() - 1).max(1)
     }
 
     /// Multiplications of one factorisation, if no pivot is delayed.
     pub fn multiplications(&self) -> f64 {
-        self.flops
+        self.multiplications
     }
 }
 
-/// Places in a stretch of memory, lowest first.
+/// First-fit places for contribution blocks in one array.
 #[derive(Debug, Default)]
 struct Arena {
-    /// Free stretches (start, length) below `end`, by start.
+    /// Free ranges (start, length) below `end`, by start; no two touch.
     free: Vec<(usize, usize)>,
+    /// Length that is needed so far.
     end: usize,
 }
 
@@ -311,7 +325,7 @@ impl Arena {
             }
             return start;
         }
-        // Nothing fits: lengthen the last stretch, or begin a new one.
+        // Nothing fits: take what is free at the end, and lengthen the array.
         let start = match self.free.last() {
             Some(&(start, free)) if start + free == self.end => {
                 self.free.pop();

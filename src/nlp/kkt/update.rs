@@ -1,73 +1,98 @@
-//! The matrix product of a factorisation, C −= A Wᵀ, in register tiles.
+//! Dense kernels on whole vectors: the rank update C −= L (D Lᵀ) in register tiles, column updates,
+//! products and largest magnitudes.
 
-use super::lanes::{LANES, Vector};
+#![expect(
+    unsafe_code,
+    reason = "the innermost loop of the rank update reads without a bounds check a column"
+)]
 
-/// C[c_row.., ..] −= Σ A[row.., k] W[j.., k], for up to four columns of C; where `FRESH`, C is
-/// overwritten, as if it had been zero.
-///
-/// `a` and `w` are columns of length `ld`, with four more numbers at the end of `w`; `c` is up to
-/// four columns of length `c_ld`, of which rows from `c_row` on match rows from `row` on of `a`, all
-/// of them whole vectors.
+use super::simd::{LANES, Vector};
+
+/// Eliminated columns of a front.
+#[derive(Clone, Copy)]
+pub(super) struct Eliminated<'a> {
+    /// L, by columns of length `ld`.
+    pub l: &'a [f64],
+    /// (D Lᵀ)ᵀ, by columns of length `ld`, with four more numbers at the end.
+    pub w: &'a [f64],
+    pub ld: usize,
+}
+
+/// Up to four columns that are updated together.
+pub(super) struct Target<'a> {
+    /// Columns of length `ld`.
+    pub columns: &'a mut [f64],
+    pub ld: usize,
+    /// The first row to be updated; rows from here on are whole vectors.
+    pub row: usize,
+}
+
+/// target[target.row.., ..] −= Σ L[row.., k] W[j.., k]; where `FRESH`, the target is overwritten, as
+/// if it had been zero.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
-pub(super) fn subtract<V: Vector, const FRESH: bool>(
-    a: &[f64],
-    w: &[f64],
-    ld: usize,
+pub(super) fn rank_update<V: Vector, const FRESH: bool>(
+    from: Eliminated<'_>,
     row: usize,
     j: usize,
-    c: &mut [f64],
-    c_ld: usize,
-    c_row: usize,
+    mut target: Target<'_>,
 ) {
     let mut done = 0;
-    let rows = c_ld - c_row;
+    let rows = target.ld - target.row;
     while rows - done >= 3 * LANES {
-        tile::<V, 3, FRESH>(a, w, ld, row + done, j, c, c_ld, c_row + done);
+        tile::<V, 3, FRESH>(from, row + done, j, target.below(done));
         done += 3 * LANES;
     }
     match (rows - done) / LANES {
-        2 => tile::<V, 2, FRESH>(a, w, ld, row + done, j, c, c_ld, c_row + done),
-        1 => tile::<V, 1, FRESH>(a, w, ld, row + done, j, c, c_ld, c_row + done),
+        2 => tile::<V, 2, FRESH>(from, row + done, j, target.below(done)),
+        1 => tile::<V, 1, FRESH>(from, row + done, j, target.below(done)),
         _ => {}
     }
 }
 
+impl Target<'_> {
+    /// The same columns from `rows` further down.
+    #[inline(always)]
+    fn below(&mut self, rows: usize) -> Target<'_> {
+        Target {
+            columns: self.columns,
+            ld: self.ld,
+            row: self.row + rows,
+        }
+    }
+}
+
+/// `R` vectors of rows of [`rank_update`].
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 fn tile<V: Vector, const R: usize, const FRESH: bool>(
-    a: &[f64],
-    w: &[f64],
-    ld: usize,
+    from: Eliminated<'_>,
     row: usize,
     j: usize,
-    c: &mut [f64],
-    c_ld: usize,
-    c_row: usize,
+    target: Target<'_>,
 ) {
+    let Eliminated { l, w, ld } = from;
     let zero = V::splat(0.0);
     let mut sums = [[zero; R]; 4];
-    let depth = a.len() / ld;
+    let depth = l.len() / ld;
     assert!(row + R * LANES <= ld && w.len() >= depth * ld + 4 && j <= ld);
     for k in 0..depth {
-        // SAFETY: by the assertion the rows of A end within column k, and those of W, which may
+        // SAFETY: by the assertion the rows of L end within column k, and those of W, which may
         // begin in its last rows, not beyond the array.
-        let (a, w) = unsafe {
+        let (l, w) = unsafe {
             (
-                &*a.as_ptr().add(k * ld + row).cast::<[[f64; LANES]; R]>(),
+                &*l.as_ptr().add(k * ld + row).cast::<[[f64; LANES]; R]>(),
                 &*w.as_ptr().add(k * ld + j).cast::<[f64; 4]>(),
             )
         };
-        let a: [V; R] = std::array::from_fn(|r| V::load(&a[r]));
+        let l: [V; R] = std::array::from_fn(|r| V::load(&l[r]));
         for (sums, &w) in sums.iter_mut().zip(w) {
             let w = V::splat(w);
-            for (sum, a) in sums.iter_mut().zip(a) {
-                *sum = a.times_plus(w, *sum);
+            for (sum, l) in sums.iter_mut().zip(l) {
+                *sum = l.times_plus(w, *sum);
             }
         }
     }
-    for (column, sums) in c.chunks_exact_mut(c_ld).zip(&sums) {
-        let (column, _) = column[c_row..].as_chunks_mut::<LANES>();
+    for (column, sums) in target.columns.chunks_exact_mut(target.ld).zip(&sums) {
+        let (column, _) = column[target.row..].as_chunks_mut::<LANES>();
         for (c, sum) in column.iter_mut().zip(sums) {
             let before = if FRESH { zero } else { V::load(c) };
             before.minus(*sum).store(c);
@@ -82,13 +107,13 @@ pub(super) fn largest<V: Vector>(column: &[f64]) -> f64 {
     let (pairs, rest) = column.as_chunks::<2>();
     let mut most = [V::splat(0.0); 2];
     for [first, second] in pairs {
-        most[0] = most[0].most(V::load(first));
-        most[1] = most[1].most(V::load(second));
+        most[0] = most[0].max_magnitude(V::load(first));
+        most[1] = most[1].max_magnitude(V::load(second));
     }
     if let [last] = rest {
-        most[0] = most[0].most(V::load(last));
+        most[0] = most[0].max_magnitude(V::load(last));
     }
-    most[0].most(most[1]).largest()
+    most[0].max_magnitude(most[1]).largest()
 }
 
 /// y −= factor·x, of whole vectors.
@@ -112,7 +137,7 @@ pub(super) fn axpy_largest<V: Vector>(factor: f64, x: &[f64], y: &mut [f64]) -> 
     for (x, y) in x.iter().zip(y) {
         let sum = factor.times_plus(V::load(x), V::load(y));
         sum.store(y);
-        most = most.most(sum);
+        most = most.max_magnitude(sum);
     }
     most.largest()
 }
@@ -134,7 +159,7 @@ pub(super) fn axpy2_largest<V: Vector>(
         let one = factors[0].times_plus(V::load(x1), V::load(y));
         let sum = factors[1].times_plus(V::load(x2), one);
         sum.store(y);
-        most = most.most(sum);
+        most = most.max_magnitude(sum);
     }
     most.largest()
 }
@@ -208,9 +233,9 @@ pub(super) fn dot<V: Vector>(x: &[f64], y: &[f64]) -> f64 {
     sum[0].times_plus(one, sum[1]).sum()
 }
 
-/// Largest magnitude of any numbers; `None` where one is not finite.
+/// Largest magnitude of `values`, of any length; `None` where one is not finite.
 pub(super) fn largest_finite(values: &[f64]) -> Option<f64> {
-    // Several at a time; a product with zero is zero for finite numbers alone.
+    // Eight at a time. A number times zero is zero only where the number is finite.
     let (chunks, rest) = values.as_chunks::<8>();
     let (mut most, mut check) = ([0.0_f64; 8], [0.0_f64; 8]);
     for values in chunks {

@@ -1,7 +1,7 @@
 //! Several hypotheses about one platform.
 
 use super::{Experiments, Fit, Unknown};
-use crate::simulate::parallel::in_order;
+use crate::parallel;
 use crate::simulate::{Platform, SimulateError};
 
 impl Experiments {
@@ -21,7 +21,7 @@ impl Experiments {
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Vec<Fit>, SimulateError> {
         let fit = |h: usize| self.fit(platform, &hypotheses[h], starts, &stop);
-        let mut fits = in_order(hypotheses.len(), &fit)
+        let mut fits = parallel::map(hypotheses.len(), &fit)
             .into_iter()
             .collect::<Result<Vec<_>, _>>()?;
         let mut order: Vec<usize> = (0..hypotheses.len()).collect();

@@ -1,87 +1,115 @@
-//! Numerical factorisation of one part of the tree: its fronts assembled and eliminated in order.
+//! Numerical factorisation of one subtree: its fronts assembled and eliminated, children first.
 
-#[cfg(target_arch = "x86_64")]
-use super::lanes::Avx2;
-use super::lanes::{Plain, Vector, padded};
-use super::noise::Noise;
-use super::panel::{Counts, Panel};
-use super::symbolic::{Front, PartSize, Symbolic};
-use super::update::subtract;
+#![expect(
+    unsafe_code,
+    reason = "entries and contribution blocks are added without a bounds check a number"
+)]
 
-/// What a factorisation found of a matrix.
+use super::panel::{Panel, PivotCounts};
+use super::simd::{Kernel, Vector, dispatch, padded};
+use super::symbolic::{Front, SubtreeSize, Symbolic};
+use super::update::{Eliminated, Target, rank_update};
+use super::zero_pivots::ZeroTest;
+
+/// The inertia of a matrix, and how its factorisation went.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Inertia {
     /// Negative eigenvalues.
     pub negative: usize,
-    /// Eigenvalues that are zero as far as rounding lets one tell.
+    /// Eigenvalues that are zero to rounding.
     pub zero: usize,
-    /// Pivots that were handed to a parent.
+    /// Delayed pivots: those that a front has handed to its parent.
     pub delayed: usize,
     /// Pivots of order two.
-    pub pairs: usize,
+    pub two_by_two: usize,
 }
 
-/// What all parts are given of a matrix.
+/// What all subtrees are given of a matrix.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Matrix<'a> {
     pub values: &'a [f64],
-    /// Least part of its column's largest entry a pivot may be.
+    /// Pivot threshold: the least part of its column's largest entry that a pivot may be.
     pub threshold: f64,
-    /// See [`super::noise::suspected`].
-    pub suspected: f64,
+    /// See [`super::zero_pivots::screen`].
+    pub zero_screen: f64,
 }
 
-/// Where the factors of one front are.
+/// Where in its [`Subtree`] the factors of a front are.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Place {
-    /// Panel, in `Part::panels`.
+pub(super) struct FrontPlace {
+    /// Start of its panel, in `Subtree::panels`.
     pub panel: usize,
-    /// Unknowns and inverse pivots, in `Part::unknowns` and `Part::inverse`.
+    /// Start of its unknowns and inverse pivots, in `Subtree::unknowns` and `Subtree::inverse`.
     pub pivots: usize,
+    /// Fully summed columns: its own pivots and those delayed to it.
     pub columns: usize,
+    /// Columns eliminated here; the rest are delayed to the parent.
     pub eliminated: usize,
 }
 
-/// The factors of a part's fronts, and the memory to make them.
+/// The factors of a subtree's fronts, and the memory to make them.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Part {
+pub(super) struct Subtree {
     /// The first of its fronts.
     first: usize,
-    pub places: Vec<Place>,
+    pub places: Vec<FrontPlace>,
+    /// L of each front, by columns: pivots' rows, then the border's, both padded to whole vectors.
     pub panels: Vec<f64>,
+    /// Unknown of each column.
     pub unknowns: Vec<u32>,
+    /// Inverse pivots: the diagonal entry, and the one that links a column to the next.
     pub inverse: Vec<[f64; 2]>,
     pub inertia: Inertia,
+    /// Contribution blocks; a front's is in the other arena than its children's.
     arenas: [Vec<f64>; 2],
-    /// D Lᵀ of the front in work.
+    /// D Lᵀ of the current front, transposed.
     w: Vec<f64>,
-    /// Rows of a child in its parent.
+    /// Rows of a child's border in its parent.
     map: Vec<u32>,
-    /// See [`Noise`].
+    /// See [`ZeroTest::largest`].
     largest: Vec<f64>,
     /// Most rows of a front so far, delayed pivots included.
     pub rows: usize,
 }
 
-/// What a front's parent takes over of it.
+/// A front as its parent assembles it.
 struct Child<'a> {
     front: &'a Front,
-    place: Place,
-    /// Its panel and those after it.
+    place: FrontPlace,
+    /// Panels of its subtree, from its own on.
     panel: &'a [f64],
-    /// Lower triangle of its contribution, by columns.
+    /// Lower triangle of its contribution block, by columns.
     contribution: &'a [f64],
 }
 
-impl Part {
-    /// Memory for a part of this size; delayed pivots may make it grow.
-    pub fn new(size: &PartSize, unknowns: usize) -> Self {
+/// The factorisation of a subtree, for whatever vectors the processor has.
+struct Factor<'a> {
+    subtree: &'a mut Subtree,
+    below: &'a [Subtree],
+    symbolic: &'a Symbolic,
+    matrix: &'a Matrix<'a>,
+}
+
+impl Kernel for Factor<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        self.subtree
+            .factor_with::<V>(self.below, self.symbolic, self.matrix);
+    }
+}
+
+impl Subtree {
+    /// Memory for a subtree of this size; delayed pivots may make it grow.
+    pub fn new(size: &SubtreeSize, unknowns: usize) -> Self {
         let [rows, columns] = size.largest;
-        // A tenth more, so that a few delayed pivots need no other memory.
+        // A tenth more, so that a few delayed pivots need no new memory.
         let more = |size: usize| size + size / 10 + 64;
         Self {
             first: size.fronts.start,
-            places: vec![Place::default(); size.fronts.len()],
+            places: vec![FrontPlace::default(); size.fronts.len()],
             panels: Vec::with_capacity(more(size.panels)),
             unknowns: Vec::with_capacity(more(size.pivots)),
             inverse: Vec::with_capacity(more(size.pivots)),
@@ -94,24 +122,15 @@ impl Part {
         }
     }
 
-    /// Factorises the part's fronts; `below` are the parts that come first.
+    /// Factorises the fronts; `below` are the subtrees factorised before, whose roots may be
+    /// children of these fronts.
     pub fn factor(&mut self, below: &[Self], symbolic: &Symbolic, matrix: &Matrix<'_>) {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
-        {
-            // SAFETY: the processor has both.
-            unsafe { self.factor_avx2(below, symbolic, matrix) };
-            return;
-        }
-        self.factor_with::<Plain>(below, symbolic, matrix);
-    }
-
-    /// # Safety
-    /// The processor has AVX2 and FMA.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    unsafe fn factor_avx2(&mut self, below: &[Self], symbolic: &Symbolic, matrix: &Matrix<'_>) {
-        self.factor_with::<Avx2>(below, symbolic, matrix);
+        dispatch(Factor {
+            subtree: self,
+            below,
+            symbolic,
+            matrix,
+        });
     }
 
     #[inline(always)]
@@ -124,31 +143,31 @@ impl Part {
         for local in 0..self.places.len() {
             let front = &symbolic.fronts[self.first + local];
             let children = &symbolic.children[front.children.clone()];
-            self.open(below, symbolic, local, front, children);
+            self.allocate(below, symbolic, local, front, children);
             self.assemble(symbolic, local, front, matrix.values);
             let mut delayed = front.pivots;
             for &child in children {
-                self.extend(below, symbolic, local, child as usize, &mut delayed);
+                self.extend_add(below, symbolic, local, child as usize, &mut delayed);
             }
             let counts = self.eliminate::<V>(symbolic, local, front, matrix);
             inertia.negative += counts.negative;
             inertia.zero += counts.zero;
-            inertia.pairs += counts.pairs;
+            inertia.two_by_two += counts.two_by_two;
             inertia.delayed += self.places[local].columns - counts.eliminated;
         }
         self.inertia = inertia;
     }
 
-    /// The part that a front below this one, or of it, is in: `None` for this one.
+    /// The subtree among `below` that owns a front; `None` where it is one of this subtree's.
     #[inline(always)]
-    fn other<'a>(&self, below: &'a [Self], symbolic: &Symbolic, front: usize) -> Option<&'a Self> {
+    fn owner<'a>(&self, below: &'a [Self], symbolic: &Symbolic, front: usize) -> Option<&'a Self> {
         let inside = front >= self.first && front < self.first + self.places.len();
-        (!inside).then(|| &below[symbolic.part_of(front)])
+        (!inside).then(|| &below[symbolic.subtree_of(front)])
     }
 
-    /// Makes room for a front, delayed pivots of its children included.
+    /// Makes room for a front, with columns for the delayed pivots of its children.
     #[inline(always)]
-    fn open(
+    fn allocate(
         &mut self,
         below: &[Self],
         symbolic: &Symbolic,
@@ -162,16 +181,16 @@ impl Part {
         for &child in children {
             let child = child as usize;
             let delayed =
-                |place: Place| place.pivots + place.eliminated..place.pivots + place.columns;
-            match self.other(below, symbolic, child) {
+                |place: FrontPlace| place.pivots + place.eliminated..place.pivots + place.columns;
+            match self.owner(below, symbolic, child) {
                 None => {
                     let place = self.places[child - self.first];
                     self.unknowns.extend_from_within(delayed(place));
                 }
-                Some(part) => {
-                    let place = part.places[child - part.first];
+                Some(subtree) => {
+                    let place = subtree.places[child - subtree.first];
                     self.unknowns
-                        .extend_from_slice(&part.unknowns[delayed(place)]);
+                        .extend_from_slice(&subtree.unknowns[delayed(place)]);
                 }
             }
         }
@@ -184,20 +203,20 @@ impl Part {
             self.w.resize(ld * columns + 4, 0.0);
         }
         self.rows = self.rows.max(ld);
-        self.places[local] = Place {
+        self.places[local] = FrontPlace {
             panel,
             pivots,
             columns,
             eliminated: 0,
         };
-        // Without children nothing is added to the contribution before it is formed.
+        // Without children the contribution block is overwritten when it is formed.
         if !children.is_empty() {
             let length = padded(front.border) * padded(front.border);
             self.arenas[front.arena][front.contribution..front.contribution + length].fill(0.0);
         }
     }
 
-    /// Adds the matrix's own entries.
+    /// Adds the entries of the matrix.
     #[inline(always)]
     fn assemble(&mut self, symbolic: &Symbolic, local: usize, front: &Front, values: &[f64]) {
         let place = self.places[local];
@@ -224,10 +243,10 @@ impl Part {
         }
     }
 
-    /// Adds a child's contribution, and its delayed pivots, of which the first is to be column
-    /// `delayed`.
+    /// Extend-add: adds a child's contribution block and takes over its delayed pivots, the first of
+    /// them as column `delayed`, which then counts on.
     #[inline(always)]
-    fn extend(
+    fn extend_add(
         &mut self,
         below: &[Self],
         symbolic: &Symbolic,
@@ -235,7 +254,7 @@ impl Part {
         child: usize,
         delayed: &mut usize,
     ) {
-        let other = self.other(below, symbolic, child);
+        let owner = self.owner(below, symbolic, child);
         let front = &symbolic.fronts[self.first + local];
         let place = self.places[local];
         let ld = padded(place.columns) + padded(front.border);
@@ -247,11 +266,11 @@ impl Part {
             (second, first)
         };
         let (before, panel) = self.panels.split_at_mut(place.panel);
-        let of = |part: &Place| part.columns - part.eliminated;
+        let delayed_by = |place: &FrontPlace| place.columns - place.eliminated;
         let from = &symbolic.fronts[child];
         let length = padded(from.border) * from.border;
         let span = from.contribution..from.contribution + length;
-        let child = match other {
+        let child = match owner {
             None => {
                 let place = self.places[child - self.first];
                 Child {
@@ -261,13 +280,13 @@ impl Part {
                     contribution: &theirs[span],
                 }
             }
-            Some(part) => {
-                let place = part.places[child - part.first];
+            Some(subtree) => {
+                let place = subtree.places[child - subtree.first];
                 Child {
                     front: from,
                     place,
-                    panel: &part.panels[place.panel..],
-                    contribution: &part.arenas[from.arena][span],
+                    panel: &subtree.panels[place.panel..],
+                    contribution: &subtree.arenas[from.arena][span],
                 }
             }
         };
@@ -279,13 +298,13 @@ impl Part {
             map: &mut self.map,
         };
         let inside = parent.add(symbolic, &child);
-        if of(&child.place) > 0 {
+        if delayed_by(&child.place) > 0 {
             parent.add_delayed(&child, inside, *delayed);
-            *delayed += of(&child.place);
+            *delayed += delayed_by(&child.place);
         }
     }
 
-    /// Eliminates a front's pivots and forms its contribution.
+    /// Eliminates a front's pivots and forms its contribution block.
     #[inline(always)]
     fn eliminate<V: Vector>(
         &mut self,
@@ -293,7 +312,7 @@ impl Part {
         local: usize,
         front: &Front,
         matrix: &Matrix<'_>,
-    ) -> Counts {
+    ) -> PivotCounts {
         let place = self.places[local];
         let (pivots, border) = (padded(place.columns), padded(front.border));
         let ld = pivots + border;
@@ -312,10 +331,10 @@ impl Part {
             unknowns: &mut self.unknowns[place.pivots..],
             inverse: &mut self.inverse[place.pivots..],
             threshold: matrix.threshold,
-            noise: Noise {
+            zero_test: ZeroTest {
                 pattern: &symbolic.pattern,
                 values: matrix.values,
-                suspected: matrix.suspected,
+                screen: matrix.zero_screen,
                 largest: &mut self.largest,
             },
             next: None,
@@ -326,16 +345,24 @@ impl Part {
         if border > 0 {
             let square = &mut self.arenas[front.arena]
                 [front.contribution..front.contribution + border * border];
-            let a = &self.panels[place.panel..place.panel + done * ld];
-            let w = &self.w[..done * ld + 4];
+            let from = Eliminated {
+                l: &self.panels[place.panel..place.panel + done * ld],
+                w: &self.w[..done * ld + 4],
+                ld,
+            };
             let fresh = front.children.is_empty();
             for (tile, columns) in square.chunks_exact_mut(4 * border).enumerate() {
                 let j = 4 * tile;
                 let row = pivots + j;
+                let target = Target {
+                    columns,
+                    ld: border,
+                    row: j,
+                };
                 if fresh {
-                    subtract::<V, true>(a, w, ld, row, row, columns, border, j);
+                    rank_update::<V, true>(from, row, row, target);
                 } else {
-                    subtract::<V, false>(a, w, ld, row, row, columns, border, j);
+                    rank_update::<V, false>(from, row, row, target);
                 }
             }
         }
@@ -343,18 +370,18 @@ impl Part {
     }
 }
 
-/// A front that takes over from its children.
+/// A front while its children are assembled into it.
 struct Parent<'a> {
     front: &'a Front,
     columns: usize,
     panel: &'a mut [f64],
-    /// Lower triangle of its contribution, by columns.
+    /// Lower triangle of its contribution block, by columns.
     square: &'a mut [f64],
     map: &'a mut Vec<u32>,
 }
 
 impl Parent<'_> {
-    /// Adds a child's contribution; how many of its rows are pivots here.
+    /// Adds a child's contribution block; returns how many of its rows are pivots here.
     #[inline(always)]
     fn add(&mut self, symbolic: &Symbolic, child: &Child<'_>) -> usize {
         let front = self.front;
@@ -389,7 +416,7 @@ impl Parent<'_> {
         inside
     }
 
-    /// Moves a child's delayed columns to where they are here, from column `first` on.
+    /// Adds a child's delayed columns, as columns from `first` on.
     #[cold]
     fn add_delayed(&mut self, child: &Child<'_>, inside: usize, first: usize) {
         let ld = padded(self.columns) + padded(self.front.border);

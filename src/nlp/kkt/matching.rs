@@ -1,16 +1,17 @@
-//! Pivots of order two that the structure suggests: a multiplier and a variable of its row.
+//! Pivot matching: a variable for each multiplier, so that the two can be a pivot of order two.
 
 use super::Pattern;
 
-/// The unknown that each one is paired with; itself where it stays alone.
+/// The unknown that each one is matched with; itself where it stays alone.
 ///
-/// Multipliers have no diagonal to speak of, so that each needs a variable beside it. Rarest
-/// variables first: a slack stands in one row only, a control in few, a state in many.
-pub(super) fn partners(pattern: &Pattern) -> Vec<u32> {
+/// The diagonal entry of a multiplier is zero or tiny, so that alone it makes no pivot. It is matched
+/// with the variable of its row that stands in the fewest rows: a slack stands in one row, a control
+/// in few, a state in many. Rows with the rarest variables come first.
+pub(super) fn pivot_matching(pattern: &Pattern) -> Vec<u32> {
     let n = pattern.len();
     let primal = first_multiplier(pattern);
     let mut partner: Vec<u32> = (0..n as u32).collect();
-    // Rows of multipliers each variable stands in, and variables of each such row.
+    // The number of multipliers' rows that each variable stands in, and the variables of each row.
     let mut rows_of = vec![0_u32; primal];
     let mut start = vec![0_u32; n - primal + 1];
     let between = || {
@@ -51,7 +52,7 @@ pub(super) fn partners(pattern: &Pattern) -> Vec<u32> {
     partner
 }
 
-/// Start of the longest run of last unknowns that are not connected with each other.
+/// The first of the longest run of last unknowns without entries between them.
 ///
 /// In the systems of an interior-point method these are the multipliers, which come last.
 pub(super) fn first_multiplier(pattern: &Pattern) -> usize {

@@ -1,4 +1,9 @@
-//! Threads that last as long as the process and lend callers a hand.
+//! The pool: threads that last as long as the process and help callers.
+
+#![expect(
+    unsafe_code,
+    reason = "a caller's work is lent to threads that outlive it; Miri tests it"
+)]
 
 use std::any::Any;
 use std::num::NonZero;
@@ -6,32 +11,33 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// As many helpers as a word has bits; they are started when first asked.
+/// As many pool threads as a word has bits; each is started when it is first asked.
 static HELPERS: [Helper; u64::BITS as usize] = [const { Helper::new() }; u64::BITS as usize];
 
-/// What a caller asks a helper to do. It does not live so long: see [`with`].
+/// What a caller asks a helper to do. The lifetime is a promise kept by [`with_help`]: the work
+/// lives only as long as the call.
 type Work = &'static (dyn Fn() + Sync);
 
-/// What a panic leaves.
+/// The payload of a panic.
 type Payload = Box<dyn Any + Send>;
 
-/// A thread, and what it is doing.
+/// A pool thread and its state.
 struct Helper {
     state: Mutex<State>,
-    /// There may be work for the helper.
+    /// Signalled when there may be work for the helper.
     asked: Condvar,
-    /// The caller may go on.
+    /// Signalled when the helper has finished its work.
     done: Condvar,
 }
 
 enum State {
     /// There is no thread yet.
-    Unborn,
+    NotStarted,
     Free,
-    /// The caller may still take this back.
+    /// Asked, but not begun: the caller may still take the work back.
     Asked(Work),
     Busy,
-    /// The caller has not taken notice yet.
+    /// Finished, with the payload of a panic; the caller has not seen it yet.
     Done(Option<Payload>),
 }
 
@@ -40,7 +46,7 @@ enum State {
 ///
 /// # Panics
 /// Where `own` or a `help` does, after all of them have stopped.
-pub(super) fn with(most: usize, help: &(dyn Fn() + Sync), own: impl FnOnce()) {
+pub(super) fn with_help(most: usize, help: &(dyn Fn() + Sync), own: impl FnOnce()) {
     // SAFETY: helpers use this only between being asked and having been dismissed, and `asked`
     // dismisses all of them before this function returns or unwinds.
     let help = unsafe { std::mem::transmute::<&(dyn Fn() + Sync), Work>(help) };
@@ -59,11 +65,11 @@ pub(super) fn with(most: usize, help: &(dyn Fn() + Sync), own: impl FnOnce()) {
     }
 }
 
-/// The helpers a caller has asked, one a bit.
+/// The helpers that a caller has asked, one bit for each.
 struct Asked(u64);
 
 impl Asked {
-    /// Returns when none of them uses the caller's work any more, with the first one's panic.
+    /// Waits until none of them uses the caller's work any more; returns the first panic.
     fn dismiss(&mut self) -> Option<Payload> {
         let mut panic = None;
         while self.0 != 0 {
@@ -85,7 +91,7 @@ impl Drop for Asked {
 impl Helper {
     const fn new() -> Self {
         Self {
-            state: Mutex::new(State::Unborn),
+            state: Mutex::new(State::NotStarted),
             asked: Condvar::new(),
             done: Condvar::new(),
         }
@@ -99,7 +105,7 @@ impl Helper {
         };
         match *state {
             State::Free => {}
-            State::Unborn => {
+            State::NotStarted => {
                 let named = thread::Builder::new().name(format!("ffsm-helper-{k}"));
                 if named.spawn(|| self.serve()).is_err() {
                     return false;
@@ -126,15 +132,15 @@ impl Helper {
                         .wait(state)
                         .unwrap_or_else(PoisonError::into_inner);
                 }
-                State::Asked(_) | State::Free | State::Unborn => return None,
+                State::Asked(_) | State::Free | State::NotStarted => return None,
             }
         }
     }
 
-    /// What the thread does.
+    /// The loop of the thread.
     fn serve(&self) {
-        // A helper's own work is not worth dividing again.
-        super::with(NonZero::<usize>::MIN, || {
+        // Work inside a helper is not divided again: the other threads are busy already.
+        super::with_threads(NonZero::<usize>::MIN, || {
             let mut state = self.lock();
             loop {
                 if let State::Asked(work) = *state {
@@ -154,7 +160,7 @@ impl Helper {
         });
     }
 
-    /// Nothing but a change of the state happens under the lock.
+    /// A poisoned lock is usable: nothing but a change of state happens under it.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

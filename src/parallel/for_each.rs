@@ -1,13 +1,13 @@
 //! Every item of an iterator by one of several workers.
 
-use super::helpers;
+use super::pool;
 use std::sync::{Mutex, PoisonError};
 
-/// Runs `body` on every item. This thread takes items from the front; with each further worker a
-/// helper, if one is free, takes them from the back.
+/// Runs `body` on every item. This thread takes items from the front with the first worker; for
+/// each further worker a pool thread, if one is free, takes items from the back.
 ///
-/// Data of the calling thread stay where they are, and items near either end mostly meet the same
-/// processor core again.
+/// The caller's data so stay in its processor's cache, and in repeated calls an item near either
+/// end mostly runs on the same core again.
 pub(crate) fn for_each<W: Send, T: Send>(
     workers: &mut [W],
     items: impl DoubleEndedIterator<Item = T> + Send,
@@ -33,14 +33,15 @@ pub(crate) fn for_each<W: Send, T: Send>(
             }
         }
     };
-    helpers::with(most, &help, || {
+    pool::with_help(most, &help, || {
         while let Some(item) = first() {
             body(own, item);
         }
     });
 }
 
-/// Only an iterator's step runs under the lock; where it panicked there is nothing half done.
+/// A poisoned lock is usable: only an iterator's step runs under it, and a step that panicked has
+/// left nothing half done.
 fn locked<T>(mutex: &Mutex<T>) -> impl std::ops::DerefMut<Target = T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -73,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn many_callers_at_a_time_and_callers_among_helpers() {
+    fn many_callers_at_a_time_and_callers_in_the_pool() {
         let square = |_: &mut (), item: &mut u64| {
             let mut inner = [*item; 4];
             for_each(&mut [(); 3], inner.iter_mut(), |(), inner| *inner *= 2);
@@ -96,8 +97,8 @@ mod tests {
     #[test]
     fn a_panic_of_either_side_reaches_the_caller_after_all_have_stopped() {
         for which in 0..2 {
-            // Items that wait for each other need two threads, and there are more helpers than
-            // all tests ask for.
+            // The two items wait for each other, so that two threads are needed; the pool has more
+            // than all tests ask for.
             let together = Barrier::new(2);
             let mut items = [0, 1];
             let mut done = [false; 2];

@@ -1,12 +1,21 @@
-//! Four numbers at a time: the processor's vectors where it has them, plain arithmetic otherwise.
+//! Four numbers at a time: AVX2 vectors where the processor has them, plain arithmetic otherwise.
 //!
-//! Everything here is inlined into a function that is compiled for the processor's features; only
-//! there do the instructions become what they stand for.
+//! [`dispatch`] is the only way in. It asks the processor for AVX2 and FMA and runs a [`Kernel`] with
+//! the vector type that fits. The AVX2 type is private to this file, so that no code can use it
+//! without that test.
+//!
+//! A kernel and all it calls must be `#[inline(always)]`. Intrinsics become instructions only inside
+//! a function that is compiled for AVX2; anywhere else each of them is a function call.
+
+#![allow(
+    unsafe_code,
+    reason = "AVX2 intrinsics, reached only after the processor was asked for AVX2 and FMA"
+)]
 
 /// Numbers in a vector.
 pub(super) const LANES: usize = 4;
 
-/// Rows padded to whole vectors.
+/// `rows` rounded up to whole vectors.
 pub(super) fn padded(rows: usize) -> usize {
     rows.next_multiple_of(LANES)
 }
@@ -21,18 +30,37 @@ pub(super) trait Vector: Copy {
     fn plus(self, other: Self) -> Self;
     fn minus(self, other: Self) -> Self;
     fn times(self, other: Self) -> Self;
-    /// The larger of `self` and the magnitude of `other`, lane by lane.
-    fn most(self, other: Self) -> Self;
+    /// The larger of `self` and |other|, lane by lane.
+    fn max_magnitude(self, other: Self) -> Self;
     /// The largest lane.
     fn largest(self) -> f64;
+    /// The sum of the lanes.
     fn sum(self) -> f64;
-    /// The sum of each of the vectors.
+    /// The sum of the lanes of each vector.
     fn sums(of: [Self; LANES]) -> [f64; LANES];
+}
+
+/// Work that is generic in the vector type.
+pub(super) trait Kernel {
+    /// The result.
+    type Output;
+    /// Does the work. Implementations must be `#[inline(always)]`.
+    fn run<V: Vector>(self) -> Self::Output;
+}
+
+/// Runs `kernel` with the widest vectors of this processor.
+pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+        // SAFETY: the processor has both features.
+        return unsafe { avx2::run(kernel) };
+    }
+    kernel.run::<Plain>()
 }
 
 /// Plain arithmetic.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Plain([f64; LANES]);
+struct Plain([f64; LANES]);
 
 impl Vector for Plain {
     #[inline(always)]
@@ -71,7 +99,7 @@ impl Vector for Plain {
     }
 
     #[inline(always)]
-    fn most(self, other: Self) -> Self {
+    fn max_magnitude(self, other: Self) -> Self {
         Self(std::array::from_fn(|i| {
             let value = other.0[i].abs();
             if value > self.0[i] { value } else { self.0[i] }
@@ -96,19 +124,27 @@ impl Vector for Plain {
     }
 }
 
-/// AVX2 with fused multiplication and addition. Only to be used where the processor has both.
-#[cfg(target_arch = "x86_64")]
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Avx2(std::arch::x86_64::__m256d);
-
+/// AVX2 with fused multiplication and addition.
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
-    use super::{Avx2, LANES, Vector};
+    use super::{Kernel, LANES, Vector};
     use std::arch::x86_64::*;
 
-    // SAFETY, for every block below: a value of this type is made only in functions compiled for
-    // AVX2 and FMA, which are called where the processor has them; loads and stores are of arrays
-    // of four.
+    /// Runs `kernel` compiled for AVX2 and FMA.
+    ///
+    /// # Safety
+    /// The processor has AVX2 and FMA.
+    #[target_feature(enable = "avx2,fma")]
+    pub(super) unsafe fn run<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run::<Avx2>()
+    }
+
+    /// Four numbers in one register. Private: [`run`] alone hands this type to other code.
+    #[derive(Debug, Clone, Copy)]
+    struct Avx2(__m256d);
+
+    // SAFETY, for every block below: this code runs only inside `run`, whose caller has seen to it
+    // that the processor has AVX2 and FMA; loads and stores are of arrays of four.
     impl Vector for Avx2 {
         #[inline(always)]
         fn splat(value: f64) -> Self {
@@ -153,7 +189,7 @@ mod avx2 {
         }
 
         #[inline(always)]
-        fn most(self, other: Self) -> Self {
+        fn max_magnitude(self, other: Self) -> Self {
             // SAFETY: see above.
             Self(unsafe {
                 let sign = _mm256_set1_pd(-0.0);
@@ -199,5 +235,42 @@ mod avx2 {
             }
             sums
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Kernel, LANES, Plain, Vector, dispatch};
+
+    /// Every operation once, on numbers whose results are exact.
+    struct Operations;
+
+    impl Kernel for Operations {
+        type Output = Vec<f64>;
+
+        #[inline(always)]
+        fn run<V: Vector>(self) -> Vec<f64> {
+            let a = V::load(&[1.0, -2.0, 3.0, -4.0]);
+            let b = V::load(&[0.5, 8.0, -0.25, 2.0]);
+            let mut results = Vec::new();
+            let mut keep = |vector: V| {
+                let mut lanes = [0.0; LANES];
+                vector.store(&mut lanes);
+                results.extend(lanes);
+            };
+            keep(a.times_plus(b, V::splat(3.0)));
+            keep(a.plus(b));
+            keep(a.minus(b));
+            keep(a.times(b));
+            keep(a.max_magnitude(b));
+            results.extend([a.largest(), b.sum()]);
+            results.extend(V::sums([a, b, a, b]));
+            results
+        }
+    }
+
+    #[test]
+    fn the_processor_s_vectors_and_plain_arithmetic_agree() {
+        assert_eq!(dispatch(Operations), Operations.run::<Plain>());
     }
 }
