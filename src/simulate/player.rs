@@ -2,11 +2,9 @@
 
 use super::SimulateError;
 use super::dynamics::{BASE, PlanarDynamics};
-use super::parallel::in_order;
 use super::plane::PlanarBodies;
 use super::platform::Platform;
 use super::reference::{PlannedBase, Reference};
-use super::run::{self, Run};
 use crate::dynamics::Tree;
 use crate::dynamics::space::Planar;
 use crate::planner::Problem;
@@ -83,24 +81,6 @@ impl Player {
             reference,
             ..self.clone()
         }
-    }
-
-    /// Plays run `index`: the same index gives the same run, bit by bit.
-    ///
-    /// # Errors
-    /// [`SimulateError::Stuck`] where the motion runs away.
-    pub fn run(&self, index: usize) -> Result<Run, SimulateError> {
-        run::play(self, index)
-    }
-
-    /// Plays all runs of the platform's `repeats`, several at a time.
-    ///
-    /// # Errors
-    /// [`SimulateError::Stuck`] where the motion of one runs away.
-    pub fn runs(&self) -> Result<Vec<Run>, SimulateError> {
-        in_order(self.platform.repeats, &|index| self.run(index))
-            .into_iter()
-            .collect()
     }
 
     /// The platform.
