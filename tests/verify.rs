@@ -9,6 +9,7 @@ use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
 use ffsm_ipopt::dynamics::space::Space;
 use ffsm_ipopt::dynamics::{Data, Model, Tree};
+use ffsm_ipopt::integrate::Rk4;
 use ffsm_ipopt::nalgebra::Vector3;
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::transcription::Discretization;
@@ -65,28 +66,16 @@ fn plan<Sp: Space>(
     };
     let mut eta = attitude.start().to_vec();
     let mut reached = 0.0;
+    let mut rk4 = Rk4::new(angles);
     Discretization::sample(mesh, DURATION, angles + 2 * n, n, |fraction, x, u| {
-        // Classical Runge-Kutta steps from node to node, fine enough for rounding to count.
-        let steps = 40;
-        let h = (fraction - reached) / f64::from(steps);
-        for step in 0..steps {
-            let s = reached + h * f64::from(step);
-            let mut along = |s: f64, k: &[f64], by: f64| {
-                let eta: Vec<f64> = eta
-                    .iter()
-                    .zip(k)
-                    .map(|(e, k)| e + by * DURATION * k)
-                    .collect();
-                rate(s, &eta, &mut data)
-            };
-            let k1 = along(s, &vec![0.0; angles], 0.0);
-            let k2 = along(s + 0.5 * h, &k1, 0.5 * h);
-            let k3 = along(s + 0.5 * h, &k2, 0.5 * h);
-            let k4 = along(s + h, &k3, h);
-            for i in 0..angles {
-                eta[i] += h * DURATION / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+        // Steps from node to node, fine enough for rounding to count.
+        let along = |s: f64, eta: &[f64], slope: &mut [f64]| {
+            let rates = rate(s, eta, &mut data);
+            for (slope, rate) in slope.iter_mut().zip(rates) {
+                *slope = DURATION * rate;
             }
-        }
+        };
+        rk4.integrate(along, [reached, fraction], 40, &mut eta);
         reached = fraction;
         let [q, dq, ddq] = path.at(fraction);
         tree.kinematics(&q, &mut data);
@@ -240,6 +229,23 @@ fn steps_do_not_allocate() {
     let rough = count(&rough);
     assert!(rough.1 > 2 * calm.1, "{} and {} steps", calm.1, rough.1);
     assert_eq!(rough.0, calm.0);
+}
+
+#[test]
+fn a_state_that_is_no_orientation_is_no_small_drift() {
+    let model = two_link().in_space();
+    let ends = [vec![0.0, 0.0], vec![PI / 6.0, PI / 3.0]];
+    let mesh = Mesh::uniform(4, 4).unwrap();
+    let (problem, mut plan) = case(model, SpatialAttitude::Quaternion, ends, mesh);
+    assert!(verify(&problem, &plan).is_ok());
+    // A quaternion of length zero: every number is finite, but it turns nothing.
+    plan.x[5 * plan.states..5 * plan.states + 4].fill(0.0);
+    let error = verify(&problem, &plan).unwrap_err();
+    let VerifyError::Undefined { time, .. } = error else {
+        panic!("{error}")
+    };
+    assert!((time - plan.times()[5]).abs() < 1e-9);
+    assert!(error.to_string().contains("not a number"), "{error}");
 }
 
 #[test]

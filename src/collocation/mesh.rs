@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 /// A mesh that cannot be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// No segment at all.
     #[error("a mesh needs at least one segment")]

@@ -10,6 +10,7 @@ use crate::largest::largest;
 use crate::nlp::{self, Control, Iterate, Progress, Statistics, Status, ipopt};
 use crate::ocp::Ocp;
 use crate::transcription::{Discretization, Layout, Patterns, Transcription};
+use std::fmt;
 use std::time::Instant;
 
 /// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
@@ -133,6 +134,15 @@ pub struct Refinement<'a, O: Ocp> {
     pub settings: &'a Settings,
     /// The solver.
     pub solver: &'a nlp::Settings,
+}
+
+impl<O: Ocp> fmt::Debug for Refinement<'_, O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Refinement")
+            .field("settings", &self.settings)
+            .field("solver", &self.solver)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<O: Ocp> Refinement<'_, O> {

@@ -5,6 +5,7 @@ use crate::transcription::Discretization;
 
 /// What is bounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Bounded {
     /// A state along the path.
     State(usize),

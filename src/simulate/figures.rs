@@ -1,6 +1,7 @@
 //! What a run comes to, and how runs scatter.
 
 use super::run::Run;
+use crate::largest::raise;
 
 /// How far the base moved from where it was first seen; displacements are of the tracked point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -27,9 +28,9 @@ impl Figures {
             ..Self::default()
         };
         for [x, y, attitude] in poses {
-            found.max_attitude = found.max_attitude.max((attitude - first[2]).abs());
+            raise(&mut found.max_attitude, (attitude - first[2]).abs());
             let distance = (x - first[0]).hypot(y - first[1]);
-            found.max_displacement = found.max_displacement.max(distance);
+            raise(&mut found.max_displacement, distance);
         }
         found
     }
@@ -59,16 +60,23 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of at least one value.
+    /// Of at least one value; NaN where one is.
     pub fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
         let count = values.clone().count();
         let mean = values.clone().sum::<f64>() / count as f64;
-        let squares: f64 = values.clone().map(|value| (value - mean).powi(2)).sum();
+        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values.clone() {
+            if value.is_nan() || value < min {
+                min = value;
+            }
+            raise(&mut max, value);
+        }
+        let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
         Self {
             mean,
             deviation: (squares / count.saturating_sub(1).max(1) as f64).sqrt(),
-            min: values.clone().fold(f64::INFINITY, f64::min),
-            max: values.fold(f64::NEG_INFINITY, f64::max),
+            min,
+            max,
         }
     }
 }

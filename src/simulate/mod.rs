@@ -40,6 +40,7 @@ use crate::verify::VerifyError;
 
 /// A plan that cannot be played.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SimulateError {
     /// The platform is flat.
     #[error(

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 
 /// What is random.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Source {
     /// Motion at release.
     Release,

@@ -79,6 +79,7 @@ impl Platform {
 
 /// How the joint torques are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Law {
     /// τ = H(θ)(θ̈_d + 2ζω ė + ω² e) + Cθ̇ with the measured joints, eq. (6).
     ComputedTorque,

@@ -5,10 +5,8 @@ use super::dynamics::{BASE, PlanarDynamics};
 use super::plane::PlanarBodies;
 use super::platform::Platform;
 use super::reference::{PlannedBase, Reference};
-use super::run::{self, Run};
 use crate::dynamics::Tree;
 use crate::dynamics::space::Planar;
-use crate::parallel;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
 use crate::verify;
@@ -83,24 +81,6 @@ impl Player {
             reference,
             ..self.clone()
         }
-    }
-
-    /// Plays run `index`: the same index gives the same run, bit by bit.
-    ///
-    /// # Errors
-    /// [`SimulateError::Stuck`] where the motion runs away.
-    pub fn run(&self, index: usize) -> Result<Run, SimulateError> {
-        run::play(self, index)
-    }
-
-    /// Plays all runs of the platform's `repeats`, several at a time.
-    ///
-    /// # Errors
-    /// [`SimulateError::Stuck`] where the motion of one runs away.
-    pub fn runs(&self) -> Result<Vec<Run>, SimulateError> {
-        parallel::map(self.platform.repeats, &|index| self.run(index))
-            .into_iter()
-            .collect()
     }
 
     /// The platform.

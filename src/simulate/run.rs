@@ -4,10 +4,13 @@ use super::SimulateError;
 use super::dynamics::{BASE, PlanarDynamics, Wrench};
 use super::forces::Forces;
 use super::noise::{Noise, Source};
+
 use super::platform::JointFriction;
 use super::player::Player;
 use super::tracking::Tracking;
 use crate::integrate::{DormandPrince, IntegrationError, Ode};
+use crate::largest::raise;
+use crate::parallel;
 use nalgebra::Vector2;
 use std::collections::VecDeque;
 
@@ -55,6 +58,7 @@ struct Plant {
     wrenches: Vec<Wrench>,
     linear: Vector2<f64>,
     angular: f64,
+    /// Largest changes of the linear and the angular momentum.
     found: [f64; 2],
 }
 
@@ -89,7 +93,8 @@ impl Plant {
         self.dynamics.place(q, v);
         let linear = (self.dynamics.linear_momentum() - self.linear).norm();
         let angular = (self.dynamics.angular_momentum() - self.angular).abs();
-        self.found = [self.found[0].max(linear), self.found[1].max(angular)];
+        raise(&mut self.found[0], linear);
+        raise(&mut self.found[1], angular);
     }
 }
 
@@ -120,86 +125,198 @@ impl Pipeline {
     }
 }
 
-/// Plays run `index`.
-pub(super) fn play(player: &Player, index: usize) -> Result<Run, SimulateError> {
-    let platform = player.platform();
-    let reference = player.reference();
-    let n = player.plant().joint_count();
-    let end = reference.time(reference.samples());
-    let stream = |source| Noise::new(platform.seed, index, source);
+/// The plan played once, at time `t`.
+struct Playback<'a> {
+    player: &'a Player,
+    plant: Plant,
+    /// Coordinates and their rates.
+    y: Vec<f64>,
+    t: f64,
+    tracking: Tracking<'a>,
+    encoder: Noise,
+    torque_noise: Noise,
+    capture: Noise,
+    pipeline: Pipeline,
+    /// Number of the controller's next sample and of the capture's next frame.
+    sample: usize,
+    frame: usize,
+    /// Joints as the controller sees them: positions, then rates.
+    seen: Vec<f64>,
+    command: Vec<f64>,
+    run: Run,
+}
 
-    let (mut plant, mut y) = start(player, &mut stream(Source::Release));
-    let size = plant.dynamics.size();
-    let mut tracking = Tracking::new(platform.controller, reference, player.tree());
-    let [mut encoder, mut torque_noise, mut capture] =
-        [Source::Encoder, Source::Torque, Source::Capture].map(stream);
-    let mut pipeline = Pipeline {
-        n,
-        times: VecDeque::new(),
-        torques: VecDeque::new(),
-    };
-    let mut integrator = DormandPrince::new(2 * size, RELATIVE, ABSOLUTE, MAX_STEPS);
-    let mut run = Run::default();
-    let (mut seen, mut command) = (vec![0.0; 2 * n], vec![0.0; n]);
-    let (mut t, mut sample, mut frame, mut fresh) = (0.0, 0, 0, true);
-    loop {
-        if sample < reference.samples() && reference.time(sample) <= t + INSTANT {
-            let (q, v) = y.split_at(size);
-            let (positions, rates) = seen.split_at_mut(n);
-            for j in 0..n {
-                let error = (q[BASE + j] - reference.position(sample)[j]).abs();
-                if error.is_nan() || error > LOST {
-                    return Err(SimulateError::Stuck { time: t });
-                }
-                run.max_joint_error = run.max_joint_error.max(error);
-                positions[j] = q[BASE + j] + encoder.draw(platform.encoder.position_noise);
-                rates[j] = v[BASE + j] + encoder.draw(platform.encoder.rate_noise);
+impl Player {
+    /// Plays run `index`: the same index gives the same run, bit by bit.
+    ///
+    /// # Errors
+    /// [`SimulateError::Stuck`] where the motion runs away.
+    pub fn run(&self, index: usize) -> Result<Run, SimulateError> {
+        Playback::new(self, index).play()
+    }
+
+    /// Plays all runs of the platform's `repeats`, several at a time.
+    ///
+    /// # Errors
+    /// [`SimulateError::Stuck`] where the motion of one runs away.
+    pub fn runs(&self) -> Result<Vec<Run>, SimulateError> {
+        parallel::map(self.platform().repeats, &|index| self.run(index))
+            .into_iter()
+            .collect()
+    }
+}
+
+impl<'a> Playback<'a> {
+    fn new(player: &'a Player, index: usize) -> Self {
+        let platform = player.platform();
+        let n = player.plant().joint_count();
+        let stream = |source| Noise::new(platform.seed, index, source);
+        let (plant, y) = start(player, &mut stream(Source::Release));
+        Self {
+            plant,
+            y,
+            t: 0.0,
+            tracking: Tracking::new(platform.controller, player.reference(), player.tree()),
+            encoder: stream(Source::Encoder),
+            torque_noise: stream(Source::Torque),
+            capture: stream(Source::Capture),
+            pipeline: Pipeline {
+                n,
+                times: VecDeque::new(),
+                torques: VecDeque::new(),
+            },
+            sample: 0,
+            frame: 0,
+            seen: vec![0.0; 2 * n],
+            command: vec![0.0; n],
+            run: Run::default(),
+            player,
+        }
+    }
+
+    fn play(mut self) -> Result<Run, SimulateError> {
+        let size = self.plant.dynamics.size();
+        let reference = self.player.reference();
+        let end = reference.time(reference.samples());
+        let mut integrator = DormandPrince::new(2 * size, RELATIVE, ABSOLUTE, MAX_STEPS);
+        let mut fresh = true;
+        loop {
+            if self
+                .next_sample()
+                .is_some_and(|time| time <= self.t + INSTANT)
+            {
+                self.control()?;
             }
-            tracking.command(sample, positions, rates, &mut command);
-            let actuator = &platform.actuator;
-            for value in &mut command {
-                let limit = actuator.torque_limit;
-                *value = value.clamp(-limit, limit) + torque_noise.draw(actuator.torque_noise);
+            fresh |= self.pipeline.pop(self.t, &mut self.plant.torque);
+            if self.next_frame(end) <= self.t + INSTANT {
+                self.record();
             }
-            pipeline.push(t + actuator.delay, &command);
-            sample += 1;
+            if self.t >= end {
+                break;
+            }
+            let next = self.next_event(end);
+            integrator
+                .advance(
+                    &mut self.plant,
+                    [self.t, next],
+                    &mut self.y,
+                    fresh,
+                    Plant::after_step,
+                )
+                .map_err(|error| match error {
+                    IntegrationError::Rate(time, _)
+                    | IntegrationError::StepUnderflow(time)
+                    | IntegrationError::StepLimit(time) => SimulateError::Stuck { time },
+                })?;
+            (self.t, fresh) = (next, false);
         }
-        fresh |= pipeline.pop(t, &mut plant.torque);
-        let frame_time = (frame as f64 / platform.capture.rate).min(end);
-        if frame_time <= t + INSTANT {
-            record(&mut run, t, &mut plant, &y, player, &mut capture);
-            frame += 1;
+        self.observe_errors(reference.samples())?;
+        [self.run.max_linear_momentum, self.run.max_angular_momentum] = self.plant.found;
+        self.run.steps = integrator.taken();
+        Ok(self.run)
+    }
+
+    /// Time of the controller's next sample; none after the last.
+    fn next_sample(&self) -> Option<f64> {
+        let reference = self.player.reference();
+        (self.sample < reference.samples()).then(|| reference.time(self.sample))
+    }
+
+    /// Time of the capture's next frame, the last being at `end`.
+    fn next_frame(&self, end: f64) -> f64 {
+        (self.frame as f64 / self.player.platform().capture.rate).min(end)
+    }
+
+    /// When the motion has to be halted next.
+    fn next_event(&self, end: f64) -> f64 {
+        let mut next = self.next_frame(end);
+        if let Some(time) = self.next_sample() {
+            next = next.min(time);
         }
-        if t >= end {
-            break;
-        }
-        let mut next = (frame as f64 / platform.capture.rate).min(end);
-        if sample < reference.samples() {
-            next = next.min(reference.time(sample));
-        }
-        if let Some(due) = pipeline.times.front() {
+        if let Some(due) = self.pipeline.times.front() {
             next = next.min(*due);
         }
         // Close to the end is the end.
-        if end - next < INSTANT {
-            next = end;
+        if end - next < INSTANT { end } else { next }
+    }
+
+    /// Compares the joints with sample `k` of the plan.
+    fn observe_errors(&mut self, k: usize) -> Result<(), SimulateError> {
+        let joints = &self.y[BASE..self.plant.dynamics.size()];
+        for (actual, planned) in joints.iter().zip(self.player.reference().position(k)) {
+            let error = (actual - planned).abs();
+            if error.is_nan() || error > LOST {
+                return Err(SimulateError::Stuck { time: self.t });
+            }
+            raise(&mut self.run.max_joint_error, error);
         }
-        integrator
-            .advance(&mut plant, [t, next], &mut y, fresh, Plant::after_step)
-            .map_err(|error| match error {
-                IntegrationError::Rate(time, _)
-                | IntegrationError::StepUnderflow(time)
-                | IntegrationError::StepLimit(time) => SimulateError::Stuck { time },
-            })?;
-        (t, fresh) = (next, false);
+        Ok(())
     }
-    [run.max_linear_momentum, run.max_angular_momentum] = plant.found;
-    run.steps = integrator.taken();
-    for j in 0..n {
-        let error = (y[BASE + j] - reference.position(reference.samples())[j]).abs();
-        run.max_joint_error = run.max_joint_error.max(error);
+
+    /// One sample of the controller: the joints measured, a torque sent on its way.
+    fn control(&mut self) -> Result<(), SimulateError> {
+        self.observe_errors(self.sample)?;
+        let platform = self.player.platform();
+        let (q, v) = self.y.split_at(self.plant.dynamics.size());
+        let (positions, rates) = self.seen.split_at_mut(self.command.len());
+        for j in 0..self.command.len() {
+            positions[j] = q[BASE + j] + self.encoder.draw(platform.encoder.position_noise);
+            rates[j] = v[BASE + j] + self.encoder.draw(platform.encoder.rate_noise);
+        }
+        self.tracking
+            .command(self.sample, positions, rates, &mut self.command);
+        let actuator = &platform.actuator;
+        for value in &mut self.command {
+            let limit = actuator.torque_limit;
+            *value = value.clamp(-limit, limit) + self.torque_noise.draw(actuator.torque_noise);
+        }
+        self.pipeline.push(self.t + actuator.delay, &self.command);
+        self.sample += 1;
+        Ok(())
     }
-    Ok(run)
+
+    /// One frame of the capture.
+    fn record(&mut self) {
+        let (q, v) = self.y.split_at(self.plant.dynamics.size());
+        self.plant.dynamics.place(q, v);
+        let capture = &self.player.platform().capture;
+        let tracked = self.player.plant().flat(0, &capture.point);
+        let (point, _) = self.plant.dynamics.states()[0].point(&tracked);
+        let noise = &mut self.capture;
+        let mut length = || noise.draw(capture.position_noise);
+        let (dx, dy) = (length(), length());
+        let run = &mut self.run;
+        run.measured.push([
+            point.x + dx,
+            point.y + dy,
+            q[2] + noise.draw(capture.attitude_noise),
+        ]);
+        run.t.push(self.t);
+        run.actual.push([q[0], q[1], q[2]]);
+        run.joint_position.push(q[BASE..].to_vec());
+        run.joint_torque.push(self.plant.torque.clone());
+        self.frame += 1;
+    }
 }
 
 /// The robot as it is let go.
@@ -242,23 +359,4 @@ fn start(player: &Player, noise: &mut Noise) -> (Plant, Vec<f64>) {
         dynamics,
     };
     (plant, y)
-}
-
-fn record(run: &mut Run, t: f64, plant: &mut Plant, y: &[f64], player: &Player, noise: &mut Noise) {
-    let (q, v) = y.split_at(plant.dynamics.size());
-    plant.dynamics.place(q, v);
-    let capture = &player.platform().capture;
-    let tracked = player.plant().flat(0, &capture.point);
-    let (point, _) = plant.dynamics.states()[0].point(&tracked);
-    let mut length = || noise.draw(capture.position_noise);
-    let (dx, dy) = (length(), length());
-    run.measured.push([
-        point.x + dx,
-        point.y + dy,
-        q[2] + noise.draw(capture.attitude_noise),
-    ]);
-    run.t.push(t);
-    run.actual.push([q[0], q[1], q[2]]);
-    run.joint_position.push(q[BASE..].to_vec());
-    run.joint_torque.push(plant.torque.clone());
 }

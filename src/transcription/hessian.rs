@@ -18,9 +18,19 @@ struct DurationTerms {
     own: Option<usize>,
 }
 
+/// What the Lagrangian σf + Σ λg is made with.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Multipliers<'a> {
+    /// σ, of the objective.
+    pub objective: f64,
+    /// λ, of the rows.
+    pub rows: &'a [f64],
+}
+
 /// The lower triangle of ∇²L: triplets and where each point's block goes.
 #[derive(Debug)]
 pub(super) struct Hessian {
+    layout: Layout,
     pub rows: Vec<usize>,
     pub columns: Vec<usize>,
     /// Slot of each nonzero of each point's block; `usize::MAX` where it involves the time.
@@ -94,6 +104,7 @@ impl Hessian {
             }
         }
         Self {
+            layout: layout.clone(),
             rows: slots.rows,
             columns: slots.columns,
             node_slots,
@@ -114,17 +125,14 @@ impl Hessian {
     pub fn values<O: Ocp>(
         &mut self,
         x: &[f64],
-        sigma: f64,
-        multipliers: &[f64],
-        layout: &Layout,
+        multipliers: Multipliers<'_>,
         evaluation: &mut Evaluation<'_, O>,
         values: &mut [f64],
     ) -> Result<(), Undefined> {
         values.fill(0.0);
         let duration = evaluation.duration(x);
-        let outputs = evaluation.node.cost() + 1;
-        for k in 0..layout.points {
-            self.weigh(k, duration, sigma, multipliers, layout, outputs);
+        for k in 0..self.layout.points {
+            self.weigh(k, duration, multipliers);
         }
         evaluation.node_hessians(x, &self.weights, &mut self.blocks);
         for (h, &slot) in self.blocks.iter().zip(&self.node_slots) {
@@ -132,14 +140,15 @@ impl Hessian {
                 values[slot] += h;
             }
         }
-        if layout.free_duration {
-            for k in 0..layout.points {
-                self.duration_terms(k, duration, layout, evaluation, values);
+        if self.layout.free_duration {
+            for k in 0..self.layout.points {
+                self.duration_terms(k, duration, evaluation, values);
             }
         }
+        let layout = &self.layout;
         let (end_rows, end_cost) = self.end_weights.split_at_mut(layout.boundary);
-        end_rows.copy_from_slice(&multipliers[layout.boundary(0)..]);
-        end_cost[0] = sigma;
+        end_rows.copy_from_slice(&multipliers.rows[layout.boundary(0)..]);
+        end_cost[0] = multipliers.objective;
         evaluation.end_hessian(x, &self.end_weights, &mut self.end_block);
         for (h, &slot) in self.end_block.iter().zip(&self.end_slots) {
             values[slot] += h;
@@ -147,7 +156,7 @@ impl Hessian {
         let points = evaluation.way_points.iter_mut().zip(&mut self.way_points);
         for (w, (point, (slots, block))) in points.enumerate() {
             let first = layout.way_point(w, 0);
-            let weights = &multipliers[first..first + point.values.len()];
+            let weights = &multipliers.rows[first..first + point.values.len()];
             point.hessian(x, duration, weights, block);
             for (h, &slot) in block.iter().zip(slots.iter()) {
                 values[slot] += h;
@@ -163,19 +172,13 @@ impl Hessian {
     }
 
     /// Weights of point `k`'s outputs in the Lagrangian.
-    fn weigh(
-        &mut self,
-        k: usize,
-        duration: f64,
-        sigma: f64,
-        multipliers: &[f64],
-        layout: &Layout,
-        outputs: usize,
-    ) {
+    fn weigh(&mut self, k: usize, duration: f64, multipliers: Multipliers<'_>) {
+        let layout = &self.layout;
+        let outputs = layout.states + layout.path + 1;
         let half = duration * self.half_width[k];
         let weights = &mut self.weights[k * outputs..(k + 1) * outputs];
         let first = layout.defect(k, 0);
-        let rows = &multipliers[first..first + layout.states + layout.path];
+        let rows = &multipliers.rows[first..first + layout.states + layout.path];
         for (i, (weight, &multiplier)) in weights.iter_mut().zip(rows).enumerate() {
             *weight = if i < layout.states {
                 -half * multiplier
@@ -183,7 +186,7 @@ impl Hessian {
                 multiplier
             };
         }
-        weights[outputs - 1] = sigma * duration * self.quadrature[k];
+        weights[outputs - 1] = multipliers.objective * duration * self.quadrature[k];
     }
 
     /// Second derivatives with the duration: with ψ = T·g(v, αT) + c(v, αT), where g gathers
@@ -192,10 +195,10 @@ impl Hessian {
         &mut self,
         k: usize,
         duration: f64,
-        layout: &Layout,
         evaluation: &Evaluation<'_, O>,
         values: &mut [f64],
     ) {
+        let layout = &self.layout;
         let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let alpha = evaluation.fraction(k);

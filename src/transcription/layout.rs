@@ -38,6 +38,7 @@ pub(crate) struct WayPointRows {
 
 /// What a constraint row is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Row {
     /// Defect of a state at a point.
     Defect {

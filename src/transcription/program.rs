@@ -1,13 +1,14 @@
 //! The transcription as a sparse programme.
 
 use super::evaluation::Evaluation;
-use super::hessian::Hessian;
+use super::hessian::{Hessian, Multipliers};
 use super::jacobian::{self, Jacobian};
 use super::names::Names;
 use super::{Discretization, Layout, Patterns};
 use crate::collocation::Mesh;
 use crate::nlp::{Nlp, Size, Undefined};
 use crate::ocp::{Formulation, Interval, Ocp};
+use std::fmt;
 
 /// An optimal control problem on one mesh: minimise (25) subject to (26) and (27).
 pub struct Transcription<'a, O: Ocp> {
@@ -19,6 +20,15 @@ pub struct Transcription<'a, O: Ocp> {
     evaluation: Evaluation<'a, O>,
     jacobian: Jacobian,
     hessian: Hessian,
+}
+
+impl<O: Ocp> fmt::Debug for Transcription<'_, O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Transcription")
+            .field("mesh", &self.mesh)
+            .field("layout", &self.layout)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a, O: Ocp> Transcription<'a, O> {
@@ -250,9 +260,10 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
         }
         self.hessian.values(
             x,
-            sigma,
-            multipliers,
-            &self.layout,
+            Multipliers {
+                objective: sigma,
+                rows: multipliers,
+            },
             &mut self.evaluation,
             values,
         )

@@ -5,9 +5,10 @@ use super::bodies::{BaseMotion, Bodies};
 use super::mass_matrix::{BASE, MassMatrix, NotPositiveDefinite};
 use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
+use super::quaternion::{turn_rate, unit, vector, write};
 use crate::integrate::Ode;
+use crate::largest::raise;
 use crate::transcription::Discretization;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// Base position, orientation, velocity, angular velocity and the joints' work; then θ and θ̇.
 const POSITION: usize = 0;
@@ -151,29 +152,4 @@ impl Pass for Forward<'_> {
             raise(&mut found.max_joint_drift, (actual - planned).abs());
         }
     }
-}
-
-pub(super) fn raise(largest: &mut f64, value: f64) {
-    *largest = largest.max(value);
-}
-
-pub(super) fn vector(y: &[f64], start: usize) -> Vector3<f64> {
-    Vector3::new(y[start], y[start + 1], y[start + 2])
-}
-
-/// A quaternion w, x, y, z, whose length may have drifted.
-pub(super) fn unit(y: &[f64]) -> UnitQuaternion<f64> {
-    UnitQuaternion::new_normalize(Quaternion::new(y[0], y[1], y[2], y[3]))
-}
-
-pub(super) fn write(orientation: &UnitQuaternion<f64>, y: &mut [f64]) {
-    let q = orientation.quaternion();
-    y[..4].copy_from_slice(&[q.w, q.i, q.j, q.k]);
-}
-
-/// q̇ = ½ωq for an angular velocity in inertial axes.
-pub(super) fn turn_rate(omega: &Vector3<f64>, y: &[f64], dy: &mut [f64]) {
-    let q = Quaternion::new(y[0], y[1], y[2], y[3]);
-    let rate = Quaternion::from_imag(*omega) * q * 0.5;
-    dy[..4].copy_from_slice(&[rate.w, rate.i, rate.j, rate.k]);
 }

@@ -14,7 +14,8 @@ use nalgebra::{Matrix3, Vector3};
 pub const BASE: usize = 6;
 
 /// The matrix lost positive definiteness: the state has run away.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the full inertia matrix is not positive definite")]
 pub struct NotPositiveDefinite;
 
 /// M = Σ JᵀMᵢJ over all bodies with the bias Σ Jᵀ(Mᵢa + ω×Iω), a being the accelerations at zero
@@ -31,6 +32,15 @@ pub struct MassMatrix {
     /// Angular and origin acceleration of every body at zero generalized acceleration.
     accelerations: Vec<(Vector3<f64>, Vector3<f64>)>,
     scratch: MemBuffer,
+}
+
+impl std::fmt::Debug for MassMatrix {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("MassMatrix")
+            .field("matrix", &self.matrix)
+            .field("bias", &self.bias)
+            .finish_non_exhaustive()
+    }
 }
 
 impl MassMatrix {

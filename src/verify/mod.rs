@@ -10,108 +10,25 @@
 //! | `mass_matrix` | inertia matrix and bias of eq. (4) from body Jacobians, Schur complement (6) |
 //! | `forward` | the full dynamics under the planned control, open loop |
 //! | `replay` | the base where the joints follow the planned path |
+//! | `quaternion` | orientations in the integrated state |
 //! | `pass` | one integration over all segments, compared with the plan at its nodes |
+//! | `verification`, `error` | what was found, or why not |
 
 pub mod bodies;
+mod error;
 mod forward;
 pub mod mass_matrix;
 mod pass;
 mod polynomial;
+mod quaternion;
 mod replay;
+mod verification;
+
+pub use error::VerifyError;
+pub use verification::Verification;
 
 use crate::problem::Problem;
 use crate::transcription::Discretization;
-
-/// What re-integration found: largest differences between plan and re-integration.
-///
-/// Drifts are taken at the nodes of the mesh, momentum and energy after every step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Verification {
-    /// Base attitude: angle between the orientations, rad.
-    pub max_base_attitude_drift: f64,
-    /// Base position, m.
-    pub max_base_position_drift: f64,
-    /// Joint positions, rad or m.
-    pub max_joint_drift: f64,
-    /// Base attitude where the joints are made to follow the planned path, rad.
-    pub replay_base_attitude_drift: f64,
-    /// Base position where the joints are made to follow the planned path, m.
-    pub replay_base_position_drift: f64,
-    /// Largest departure of the linear momentum from what it was at t₀, kg m/s.
-    pub max_linear_momentum: f64,
-    /// Largest departure of the angular momentum about the system's mass centre, kg m²/s.
-    pub max_angular_momentum: f64,
-    /// Largest gap between kinetic energy and the joints' work, J.
-    pub max_energy_gap: f64,
-    /// Steps of the adaptive integrator.
-    pub steps: usize,
-}
-
-/// A plan that could not be verified.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum VerifyError {
-    /// The plan is not one of this robot.
-    #[error(
-        "the plan has {found} {what}, robot '{robot}' needs {expected}; verify a plan with the problem it was made for"
-    )]
-    Shape {
-        /// What is counted.
-        what: &'static str,
-        /// How many the plan has.
-        found: usize,
-        /// How many there should be.
-        expected: usize,
-        /// Name of the robot.
-        robot: String,
-    },
-    /// A state or a control is not a number.
-    #[error(
-        "the plan's {what} at t = {time:.6} s is {value}, expected a finite number; the plan is damaged or planning failed, plan again"
-    )]
-    NotFinite {
-        /// "state" or "control".
-        what: &'static str,
-        /// Time, s.
-        time: f64,
-        /// What stands there.
-        value: f64,
-    },
-    /// The duration is not a time.
-    #[error("the plan's duration is {0} s, expected a finite duration above zero")]
-    Duration(f64),
-    /// The integrator's step became shorter than time resolves.
-    #[error(
-        "re-integration of {pass} stops at t = {time:.6} s: no step is short enough for the tolerance; the planned control drives the motion out of range there, tighten the limits on joint rates and controls or refine the mesh"
-    )]
-    StepUnderflow {
-        /// What was integrated.
-        pass: &'static str,
-        /// Time reached, s.
-        time: f64,
-    },
-    /// Too many steps.
-    #[error(
-        "re-integration of {pass} gives up at t = {time:.6} s after {limit} steps; the planned motion is too fast to follow, tighten the limits on joint rates and controls or refine the mesh"
-    )]
-    StepLimit {
-        /// What was integrated.
-        pass: &'static str,
-        /// Time reached, s.
-        time: f64,
-        /// Steps allowed.
-        limit: usize,
-    },
-    /// The full inertia matrix could not be factored.
-    #[error(
-        "re-integration of {pass} stops at t = {time:.6} s: the full inertia matrix is not positive definite; check that no mass or inertia of the robot is many orders of magnitude below the others"
-    )]
-    Singular {
-        /// What was integrated.
-        pass: &'static str,
-        /// Time reached, s.
-        time: f64,
-    },
-}
 
 /// Re-integrates the unreduced equations of motion (4) under the control of `plan`, whose states
 /// are [η, θ, θ̇], and compares.

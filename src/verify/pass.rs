@@ -128,26 +128,30 @@ pub(super) fn run<P: Pass>(
         }
         let nodes = mesh.rule(s).nodes();
         for (i, ends) in nodes.windows(2).enumerate() {
+            let time = |tau| mesh.fraction(s, tau) * plan.duration;
             integrator
                 .advance(&mut pass, [ends[0], ends[1]], &mut y, i == 0, |pass, y| {
                     pass.after_step(y, found);
                 })
-                .map_err(|error| {
-                    let time = |tau| mesh.fraction(s, tau) * plan.duration;
-                    match error {
-                        IntegrationError::Rate(tau, NotPositiveDefinite) => singular(time(tau)),
-                        IntegrationError::StepUnderflow(tau) => VerifyError::StepUnderflow {
-                            pass: P::NAME,
-                            time: time(tau),
-                        },
-                        IntegrationError::StepLimit(tau) => VerifyError::StepLimit {
-                            pass: P::NAME,
-                            time: time(tau),
-                            limit: MAX_STEPS,
-                        },
-                    }
+                .map_err(|error| match error {
+                    IntegrationError::Rate(tau, NotPositiveDefinite) => singular(time(tau)),
+                    IntegrationError::StepUnderflow(tau) => VerifyError::StepUnderflow {
+                        pass: P::NAME,
+                        time: time(tau),
+                    },
+                    IntegrationError::StepLimit(tau) => VerifyError::StepLimit {
+                        pass: P::NAME,
+                        time: time(tau),
+                        limit: MAX_STEPS,
+                    },
                 })?;
             pass.at_node(mesh.start(s) + i + 1, &y, found);
+            if found.has_nan() {
+                return Err(VerifyError::Undefined {
+                    pass: P::NAME,
+                    time: time(ends[1]),
+                });
+            }
         }
     }
     Ok(())

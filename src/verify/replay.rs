@@ -3,11 +3,12 @@
 
 use super::Verification;
 use super::bodies::{BaseMotion, Bodies};
-use super::forward::{raise, turn_rate, unit, vector, write};
 use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
 use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
+use super::quaternion::{turn_rate, unit, vector, write};
 use crate::integrate::Ode;
+use crate::largest::raise;
 use crate::transcription::Discretization;
 
 /// Integrates the base's position and orientation by the system's momentum along the polynomial θ(t).

@@ -127,6 +127,7 @@ pub struct Fit {
 }
 
 /// Experiments to be explained by one platform.
+#[derive(Debug, Clone)]
 pub struct Experiments {
     players: Vec<Player>,
     measured: Vec<Measured>,
