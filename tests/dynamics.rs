@@ -5,7 +5,7 @@ mod problems;
 mod trees;
 
 use fastrand::Rng;
-use ffsm_ipopt::autodiff::Dual;
+use ffsm_ipopt::autodiff::{Dual, HyperDual};
 use ffsm_ipopt::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
 use ffsm_ipopt::dynamics::space::{Space, Spatial, Vector};
 use ffsm_ipopt::dynamics::{Body, Data, Inertia, Model, Tree};
@@ -266,6 +266,47 @@ fn plane_and_space_agree() {
             for (a, b) in flat.bias.iter().zip(&full.bias) {
                 assert_close("Cθ̇", *a, *b, scale, 1e-12);
             }
+        }
+    }
+}
+
+/// Derivatives of the mass centre by every pair of joints against hyper-dual numbers.
+fn check_center_derivatives<Sp: Space>(tree: &Tree<Sp>, rng: &mut Rng) {
+    let n = tree.joint_count();
+    let (q, dq) = (trees::values(rng, n, 3.0), vec![0.0; n]);
+    let data = evaluate(tree, &q, &dq);
+    let mut seeded = Data::<Sp, HyperDual<1, 1>>::new(tree);
+    let close = |what: &str, found: &Sp::Linear<f64>, expected: Vec<f64>| {
+        assert_eq!(expected.len(), Sp::LENGTHS);
+        for (found, expected) in found.components().iter().zip(expected) {
+            assert_close(what, *found, expected, 1.0, 1e-14);
+        }
+    };
+    for k in 0..n {
+        for l in 0..n {
+            let position = |(i, &value): (usize, &f64)| {
+                HyperDual::seeded(value, (i == k).then_some(0), (i == l).then_some(0))
+            };
+            let moving: Vec<_> = q.iter().enumerate().map(position).collect();
+            tree.kinematics(&moving, &mut seeded);
+            tree.momentum(&mut seeded);
+            let center = seeded.system_center.components();
+            let by = center.iter().map(|c| c.rows[0]).collect();
+            close("by one joint", &tree.system_center_by(&data, k), by);
+            let both = center.iter().map(|c| c.block[0][0]).collect();
+            let found = tree.system_center_by_both(&data, k, l);
+            close("by two joints", &found, both);
+        }
+    }
+}
+
+#[test]
+fn the_mass_centre_moves_with_the_joints() {
+    let rng = &mut Rng::with_seed(14);
+    for model in robots() {
+        check_center_derivatives(&Tree::spatial(&model), rng);
+        if let Some(tree) = Tree::planar(&model) {
+            check_center_derivatives(&tree, rng);
         }
     }
 }

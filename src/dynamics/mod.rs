@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | `kinematics` | poses of all bodies, eq. (1) |
 //! | `momentum` | composite rigid bodies, momentum of unit joint rates, base rate, eq. (2), (5) |
+//! | `mass_center` | derivatives of the system's mass centre by the joint positions |
 //! | `mass_matrix` | the reduced inertia matrix H, eq. (6) |
 //! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
 //! | `attitude` | the rate map of the base attitude |
@@ -23,6 +24,7 @@ mod inertia;
 mod inertness;
 mod kinematics;
 mod ldl;
+mod mass_center;
 mod mass_matrix;
 mod model;
 mod momentum;

@@ -72,14 +72,6 @@ impl<Sp: Space> Tree<Sp> {
         }
     }
 
-    /// Whether joint `k` moves the body of joint `link`.
-    fn carries(&self, k: usize, mut link: Option<usize>) -> bool {
-        while let Some(j) = link.filter(|&j| j > k) {
-            link = self.links[j].parent;
-        }
-        link == Some(k)
-    }
-
     /// Orientation of a mounted frame in the base frame. Needs [`Tree::kinematics`].
     pub fn orientation<S: Scalar>(
         &self,

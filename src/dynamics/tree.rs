@@ -50,6 +50,14 @@ impl<Sp: Space> Tree<Sp> {
         self.total_mass
     }
 
+    /// Whether joint `k` moves the body of joint `link`.
+    pub(super) fn carries(&self, k: usize, mut link: Option<usize>) -> bool {
+        while let Some(j) = link.filter(|&j| j > k) {
+            link = self.links[j].parent;
+        }
+        link == Some(k)
+    }
+
     fn assemble(
         mut links: Vec<Link<Sp>>,
         base_mass: f64,
