@@ -3,8 +3,10 @@
 //! Model code is written once, generic over [`Scalar`], and evaluated with `f64` for values, with
 //! [`Dual`] for first derivatives in several directions at a time, and with [`HyperDual`] for
 //! blocks of second derivatives. Derivatives are exact to rounding: no step size is involved.
-//! [`SparseDerivatives`] sweeps a [`Function`] so that only its nonzeros are computed.
+//! [`SparseDerivatives`] sweeps a [`Function`] so that only its nonzeros are computed; which those
+//! are, [`Sparsity`] finds by one evaluation with [`Trace`].
 
+mod dependence;
 mod dual;
 mod function;
 mod hyper_dual;
@@ -13,6 +15,8 @@ mod scalar;
 mod simd;
 mod sparse;
 mod sparsity;
+mod tape;
+mod trace;
 
 pub use dual::Dual;
 pub use function::Function;
@@ -22,3 +26,4 @@ pub use scalar::Scalar;
 pub use simd::{Kernel, dispatch, has_fused};
 pub use sparse::SparseDerivatives;
 pub use sparsity::Sparsity;
+pub use trace::Trace;

@@ -7,7 +7,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// A real number that may carry derivatives along.
 ///
 /// A new number type implements [`Scalar::chain`] and the arithmetic; every elementary function
-/// follows from it.
+/// follows from it. What is linear is arithmetic and never goes through `chain`: a sum, the
+/// negative, a multiple by an `f64`.
 pub trait Scalar:
     nalgebra::Scalar
     + Copy
@@ -30,7 +31,7 @@ pub trait Scalar:
     /// The value without its derivatives.
     fn value(&self) -> f64;
 
-    /// φ(self) for a univariate φ with the given value, first and second derivative at
+    /// φ(self) for a nonlinear univariate φ with the given value, first and second derivative at
     /// `self.value()`.
     fn chain(self, value: f64, first: f64, second: f64) -> Self;
 
@@ -98,6 +99,36 @@ pub trait Scalar:
     #[inline]
     fn square(self) -> Self {
         self * self
+    }
+
+    /// The larger one, with its derivatives; `self` where both are equal. NaN where either is.
+    ///
+    /// Use it instead of `if` on values, which [`Trace`](super::Trace) does not see.
+    #[inline]
+    fn max(self, other: Self) -> Self {
+        let own = self.value();
+        if own >= other.value() || own.is_nan() {
+            self
+        } else {
+            other
+        }
+    }
+
+    /// The smaller one, with its derivatives; `self` where both are equal. NaN where either is.
+    #[inline]
+    fn min(self, other: Self) -> Self {
+        let own = self.value();
+        if own <= other.value() || own.is_nan() {
+            self
+        } else {
+            other
+        }
+    }
+
+    /// Absolute value; at zero the derivatives are those of positive numbers.
+    #[inline]
+    fn abs(self) -> Self {
+        if self.value() < 0.0 { -self } else { self }
     }
 }
 

@@ -1,32 +1,22 @@
-//! Which derivatives of a function are ever nonzero.
+//! Which derivatives of a function may be nonzero.
 
-use super::{Dual, Function, HyperDual, Scalar};
+use super::dependence::Dependence;
+use super::tape::Recording;
+use super::{Function, Scalar, Trace};
+use num_traits::Zero;
 
 /// Nonzero pattern of a function's Jacobian and of its Hessians.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sparsity {
     /// Of each output, the inputs it depends on, ascending.
     pub jacobian: Vec<Vec<usize>>,
-    /// Pairs (row ≥ column) of inputs with a nonzero second derivative of any output, by rows.
+    /// Pairs (row ≥ column) of inputs by which any output has a second derivative, by rows.
     pub hessian: Vec<(usize, usize)>,
     /// Outputs with any second derivative.
     pub curved: Vec<usize>,
-    /// Outputs that are not zero everywhere.
+    /// Outputs that are not the constant zero.
     pub active: Vec<bool>,
 }
-
-/// Inputs looked at together for first derivatives.
-const WIDE: usize = 8;
-type Slope = Dual<WIDE>;
-
-/// Rows and columns looked at together for second ones.
-const TILE: usize = 4;
-type Look = HyperDual<TILE, TILE>;
-
-/// Points at which derivatives are looked at.
-const SAMPLES: usize = 3;
-/// Below this fraction of the output's largest derivative an entry is rounding error.
-const NEGLIGIBLE: f64 = 1e-12;
 
 impl Sparsity {
     /// Every derivative counts as nonzero, except those of the inputs where `used` is false.
@@ -49,34 +39,31 @@ impl Sparsity {
         }
     }
 
-    /// The union of the nonzeros at random points drawn by `draw`.
+    /// What may be nonzero by the operations of `f`, which one evaluation at `at` records.
     ///
-    /// Inputs where `used` is false are constants. Where no point is found at which the function
-    /// is finite, every derivative counts as nonzero.
-    pub fn sampled<F: Function>(f: &F, used: &[bool], mut draw: impl FnMut(&mut [f64])) -> Self {
-        let (n, m) = (f.inputs(), f.outputs());
-        let mut seen = Seen::new(n, m);
-        let mut point = vec![0.0; n];
-        let mut points = Vec::with_capacity(SAMPLES);
-        for _ in 0..20 * SAMPLES {
-            if points.len() == SAMPLES {
-                break;
-            }
-            draw(&mut point);
-            if seen.first_at(f, used, &point) {
-                points.push(point.clone());
-            }
+    /// Inputs where `used` is false are no variables, but take other values than those in `at`.
+    /// The result holds for all values of all inputs, as far as `f` does not branch on them. It may
+    /// hold more than is ever nonzero: entries that cancel are not found out.
+    pub fn traced<F: Function>(f: &F, used: &[bool], at: &[f64]) -> Self {
+        let mut scratch = f.scratch::<Trace>();
+        let mut out = vec![Trace::constant(0.0); f.outputs()];
+        let recording = Recording::start();
+        let inputs: Vec<Trace> = (at.iter().zip(used).enumerate())
+            .map(|(i, (&value, used))| match used {
+                true => Trace::variable(i, value),
+                false => Trace::parameter(value),
+            })
+            .collect();
+        f.evaluate(&inputs, &mut scratch, &mut out);
+        let operations = recording.finish();
+        let outputs: Vec<Option<usize>> = out.iter().map(Trace::index).collect();
+        let found = Dependence::of(&operations, &outputs, at.len());
+        Self {
+            jacobian: found.first,
+            hessian: found.second,
+            curved: found.curved,
+            active: out.iter().map(|value| !value.is_zero()).collect(),
         }
-        // What an output does not depend on at all cannot bend it: few inputs are left.
-        let matter: Vec<usize> = (0..n).filter(|&i| seen.matters(i)).collect();
-        let curved = points
-            .iter()
-            .filter(|point| seen.second_at(f, &matter, point))
-            .count();
-        if curved == 0 {
-            return Self::dense(m, used);
-        }
-        seen.pattern()
     }
 
     /// Inputs that any output depends on, ascending.
@@ -88,124 +75,181 @@ impl Sparsity {
     }
 }
 
-/// Largest magnitudes met so far.
-struct Seen {
-    inputs: usize,
-    /// Of each output.
-    size: Vec<f64>,
-    /// Of each output by each input.
-    first: Vec<Vec<f64>>,
-    /// Of each output by each pair of inputs, a square by rows.
-    second: Vec<Vec<f64>>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Seen {
-    fn new(inputs: usize, outputs: usize) -> Self {
-        Self {
-            inputs,
-            size: vec![0.0; outputs],
-            first: vec![vec![0.0; inputs]; outputs],
-            second: vec![vec![0.0; inputs * inputs]; outputs],
-        }
-    }
-
-    /// Whether any output depends on input `i`.
-    fn matters(&self, i: usize) -> bool {
-        self.first.iter().any(|row| row[i] > 0.0)
-    }
-
-    /// Adds values and first derivatives at `point`; false where one is not finite.
-    fn first_at<F: Function>(&mut self, f: &F, used: &[bool], point: &[f64]) -> bool {
-        let mut scratch = f.scratch();
-        let mut out = vec![Slope::constant(0.0); f.outputs()];
-        let inputs: Vec<usize> = (0..self.inputs).filter(|&i| used[i]).collect();
-        let mut found = Vec::new();
-        // Without inputs to look at, the values still are.
-        for lanes in inputs
-            .chunks(WIDE)
-            .chain(inputs.is_empty().then_some(&[][..]))
-        {
-            let mut seeds: Vec<Slope> = point.iter().map(|&p| Slope::constant(p)).collect();
-            for (lane, &i) in lanes.iter().enumerate() {
-                seeds[i].gradient[lane] = 1.0;
-            }
-            f.evaluate(&seeds, &mut scratch, &mut out);
-            for (r, o) in out.iter().enumerate() {
-                found.extend((lanes.iter().zip(o.gradient)).map(|(&i, d)| (r, i, d.abs())));
-            }
-        }
-        let finite =
-            found.iter().all(|(.., d)| d.is_finite()) && out.iter().all(|o| o.value.is_finite());
-        if finite {
-            for (r, i, d) in found {
-                self.first[r][i] = self.first[r][i].max(d);
-            }
-            for (size, o) in self.size.iter_mut().zip(&out) {
-                *size = size.max(o.value.abs());
-            }
-        }
-        finite
-    }
-
-    /// Adds second derivatives by the inputs that matter; false where one is not finite.
-    fn second_at<F: Function>(&mut self, f: &F, matter: &[usize], point: &[f64]) -> bool {
-        let mut scratch = f.scratch();
-        let mut out = vec![Look::constant(0.0); f.outputs()];
-        let blocks: Vec<&[usize]> = matter.chunks(TILE).collect();
-        let mut found = Vec::new();
-        for (b, rows) in blocks.iter().enumerate() {
-            for columns in &blocks[..=b] {
-                let mut seeds: Vec<Look> = point.iter().map(|&p| Look::constant(p)).collect();
-                rows.iter()
-                    .enumerate()
-                    .for_each(|(lane, &i)| seeds[i].rows[lane] = 1.0);
-                columns
-                    .iter()
-                    .enumerate()
-                    .for_each(|(lane, &j)| seeds[j].columns[lane] = 1.0);
-                f.evaluate(&seeds, &mut scratch, &mut out);
-                for (r, o) in out.iter().enumerate() {
-                    for (a, &i) in rows.iter().enumerate() {
-                        for (c, &j) in columns.iter().enumerate() {
-                            found.push((r, i * self.inputs + j, o.block[a][c].abs()));
-                        }
-                    }
+    /// A function of `$n` inputs as the list of its outputs.
+    macro_rules! function {
+        ($name:ident, $n:expr, $m:expr, |$v:ident| $outputs:expr) => {
+            struct $name;
+            impl Function for $name {
+                type Scratch<S: Scalar> = ();
+                fn inputs(&self) -> usize {
+                    $n
+                }
+                fn outputs(&self) -> usize {
+                    $m
+                }
+                fn scratch<S: Scalar>(&self) {}
+                fn evaluate<S: Scalar>(&self, $v: &[S], _: &mut (), out: &mut [S]) {
+                    let outputs: [S; $m] = $outputs;
+                    out.copy_from_slice(&outputs);
                 }
             }
-        }
-        let finite = found.iter().all(|(.., d)| d.is_finite());
-        if finite {
-            for (r, place, d) in found {
-                self.second[r][place] = self.second[r][place].max(d);
-            }
-        }
-        finite
+        };
     }
 
-    fn pattern(&self) -> Sparsity {
-        let n = self.inputs;
-        let peak = |row: &[f64]| row.iter().copied().fold(0.0, f64::max);
-        let jacobian = self.first.iter().map(|row| {
-            let least = NEGLIGIBLE * peak(row);
-            (0..n).filter(|&i| row[i] > least).collect()
-        });
-        let bent: Vec<Vec<bool>> = (self.second.iter().zip(&self.first))
-            .map(|(block, row)| {
-                let scale = peak(block).max(peak(row));
-                block.iter().map(|&h| h > NEGLIGIBLE * scale).collect()
-            })
-            .collect();
-        let hessian = (0..n)
-            .flat_map(|i| (0..=i).map(move |j| (i, j)))
-            .filter(|&(i, j)| bent.iter().any(|block| block[i * n + j]))
-            .collect();
-        Sparsity {
-            jacobian: jacobian.collect(),
-            hessian,
-            curved: (0..bent.len())
-                .filter(|&r| bent[r].contains(&true))
-                .collect(),
-            active: self.size.iter().map(|&s| s > 0.0).collect(),
+    fn traced<F: Function>(f: &F, at: &[f64]) -> Sparsity {
+        Sparsity::traced(f, &vec![true; at.len()], at)
+    }
+
+    function!(Mixed, 4, 5, |v| {
+        let [a, b, c, d] = [v[0], v[1], v[2], v[3]];
+        [
+            a * 2.0 - b + 1.0,
+            (a + b) * c,
+            c / d,
+            d.sin_cos().0 + a,
+            S::constant(3.0),
+        ]
+    });
+
+    #[test]
+    fn sums_products_quotients_and_functions() {
+        let found = traced(&Mixed, &[0.0; 4]);
+        let first = [vec![0, 1], vec![0, 1, 2], vec![2, 3], vec![0, 3], vec![]];
+        assert_eq!(found.jacobian, first);
+        assert_eq!(found.hessian, [(2, 0), (2, 1), (3, 2), (3, 3)]);
+        assert_eq!(found.curved, [1, 2, 3]);
+        assert_eq!(found.active, [true; 5]);
+    }
+
+    function!(Zeros, 3, 4, |v| {
+        let (none, one) = (S::zero(), S::one());
+        [
+            v[0] * v[1] * 0.0,
+            none * v[0].exp() + v[2],
+            (none / v[0]).square() * v[1] + one * one - one,
+            // The product reaches no output.
+            v[1] * 1.0 + v[0] * v[2] * none,
+        ]
+    });
+
+    #[test]
+    fn constants_are_folded_and_what_reaches_no_output_does_not_count() {
+        let found = traced(&Zeros, &[1.0, 2.0, 3.0]);
+        assert_eq!(found.jacobian, [vec![], vec![2], vec![], vec![1]]);
+        assert_eq!((found.hessian, found.curved), (vec![], vec![]));
+        assert_eq!(found.active, [false, true, false, true]);
+    }
+
+    // x′ = u − 5 exp(−2(t − 15)²) of x, u, t: by its values no function of t but near the bump.
+    function!(Bump, 3, 1, |v| {
+        [v[1] - ((v[2] - 15.0).square() * -2.0).exp() * 5.0]
+    });
+
+    #[test]
+    fn a_derivative_that_underflows_is_found() {
+        let far = [0.0, 0.0, 160.0];
+        assert_eq!((-2.0 * (far[2] - 15.0_f64).powi(2)).exp(), 0.0);
+        let found = traced(&Bump, &far);
+        assert_eq!(found.jacobian, [vec![1, 2]]);
+        assert_eq!((found.hessian, found.curved), (vec![(2, 2)], vec![0]));
+    }
+
+    function!(Pitch, 2, 1, |v| [v[0].sin() * v[1].sin()]);
+
+    #[test]
+    fn the_value_of_a_variable_does_not_matter() {
+        // Both at zero, where all first derivatives vanish.
+        assert_eq!(traced(&Pitch, &[0.0; 2]), traced(&Pitch, &[0.7, -0.3]));
+        assert_eq!(traced(&Pitch, &[0.0; 2]).jacobian, [vec![0, 1]]);
+    }
+
+    #[test]
+    fn an_input_that_is_no_variable_still_varies() {
+        let found = Sparsity::traced(&Pitch, &[false, true], &[0.0; 2]);
+        assert_eq!(found.jacobian, [vec![1]]);
+        assert_eq!((found.hessian, found.curved), (vec![(1, 1)], vec![0]));
+        let none = Sparsity::traced(&Pitch, &[false; 2], &[0.0; 2]);
+        assert_eq!(
+            (&none.jacobian[0], &none.active[..]),
+            (&vec![], &[true][..])
+        );
+    }
+
+    function!(Branches, 3, 3, |v| {
+        [
+            Scalar::max(v[0], v[1] * v[2]),
+            Scalar::min(v[0], S::zero()),
+            Scalar::abs(v[1] - v[2]),
+        ]
+    });
+
+    #[test]
+    fn both_sides_of_a_branch_are_kept() {
+        for at in [[9.0, 1.0, 2.0], [-9.0, 1.0, 2.0]] {
+            let found = traced(&Branches, &at);
+            assert_eq!(found.jacobian, [vec![0, 1, 2], vec![0], vec![1, 2]]);
+            assert_eq!((found.hessian, found.curved), (vec![(2, 1)], vec![0]));
         }
+    }
+
+    /// Finds another pattern while its own is being found.
+    struct Nested;
+
+    impl Function for Nested {
+        type Scratch<S: Scalar> = ();
+        fn inputs(&self) -> usize {
+            2
+        }
+        fn outputs(&self) -> usize {
+            1
+        }
+        fn scratch<S: Scalar>(&self) {}
+        fn evaluate<S: Scalar>(&self, v: &[S], _: &mut (), out: &mut [S]) {
+            let before = v[0] * v[0];
+            assert_eq!(traced(&Pitch, &[0.0; 2]).hessian.len(), 3);
+            out[0] = before + v[1];
+        }
+    }
+
+    #[test]
+    fn one_trace_within_another() {
+        let found = traced(&Nested, &[0.0; 2]);
+        assert_eq!(found.jacobian, [vec![0, 1]]);
+        assert_eq!(found.hessian, [(0, 0)]);
+    }
+
+    function!(Panics, 1, 1, |v| {
+        assert!(v[0].value() < 0.0, "on purpose");
+        [v[0]]
+    });
+
+    #[test]
+    fn nothing_is_left_behind() {
+        assert!(std::panic::catch_unwind(|| traced(&Panics, &[1.0])).is_err());
+        let kept = {
+            let _recording = Recording::start();
+            Trace::variable(0, 1.0)
+        };
+        let late = || std::panic::catch_unwind(|| kept * kept);
+        assert!(late().is_err(), "no recording");
+        let _recording = Recording::start();
+        assert!(late().is_err(), "another recording");
+        let elsewhere = std::thread::spawn(move || kept * kept).join();
+        assert!(elsewhere.is_err(), "another thread");
+        assert_eq!(kept.value(), 1.0);
+    }
+
+    // More variables than one word has bits.
+    function!(Wide, 130, 2, |v| [v[0] * v[129] + v[64], v[63] + v[128]]);
+
+    #[test]
+    fn many_variables() {
+        let found = traced(&Wide, &[0.5; 130]);
+        assert_eq!(found.jacobian, [vec![0, 64, 129], vec![63, 128]]);
+        assert_eq!(found.hessian, [(129, 0)]);
     }
 }

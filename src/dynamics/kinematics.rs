@@ -9,13 +9,13 @@ impl<Sp: Space> Tree<Sp> {
     /// (rad or m, length n).
     pub fn kinematics<S: Scalar>(&self, q: &[S], data: &mut Data<Sp, S>) {
         for (j, link) in self.links.iter().enumerate() {
-            let (orientation, origin) = match link.parent {
+            let (carrier, origin) = match link.parent {
                 Some(parent) => (data.orientation[parent], data.origin[parent]),
                 None => (Sp::aligned(), Sp::Linear::zero()),
             };
-            let mut joint = origin + Sp::rotated(&orientation, &link.offset);
-            let turn = (link.kind == JointKind::Revolute).then(|| q[j].sin_cos());
-            let orientation = Sp::turned(&orientation, &link.fixed, turn, link.sign);
+            let mut joint = origin + Sp::rotated(&carrier, &link.offset);
+            let angle = (link.kind == JointKind::Revolute).then(|| q[j].sin_cos());
+            let orientation = Sp::turned(&carrier, &link.fixed, angle, link.sign);
             match link.kind {
                 JointKind::Revolute => data.axis[j] = Sp::axis(&orientation, link.sign),
                 JointKind::Prismatic => {
@@ -25,8 +25,15 @@ impl<Sp: Space> Tree<Sp> {
             }
             data.orientation[j] = orientation;
             data.origin[j] = joint;
-            data.center[j] = joint + Sp::rotated(&orientation, &link.center);
-            data.inertia[j] = Sp::inertia(&orientation, &link.inertia);
+            // Mass that the joint turns into itself is seen at position zero: then nothing that
+            // follows depends on this position, neither by its value nor by its operations.
+            let seen = if link.symmetric {
+                Sp::turned(&carrier, &link.fixed, None, link.sign)
+            } else {
+                orientation
+            };
+            data.center[j] = joint + Sp::rotated(&seen, &link.center);
+            data.inertia[j] = Sp::inertia(&seen, &link.inertia);
         }
     }
 }

@@ -21,6 +21,9 @@ pub(super) struct Link<Sp: Space> {
     pub mass: f64,
     pub center: Sp::Linear<f64>,
     pub inertia: Sp::Inertia<f64>,
+    /// Whether the mass is the same at all positions of the joint: that of a body symmetric about
+    /// the joint's axis which carries no others.
+    pub symmetric: bool,
     /// Mass of this body and all it carries, kg.
     pub carried: f64,
 }
@@ -125,6 +128,8 @@ impl Tree<Planar> {
                     mass: inertia.mass(),
                     center: flat(*inertia.center()),
                     inertia: about_normal(&inertia),
+                    // In the plane no constant but the distance of the mass from the axis enters.
+                    symmetric: false,
                     carried: inertia.mass(),
                 }
             })
@@ -167,7 +172,8 @@ impl Tree<Spatial> {
             .joints()
             .iter()
             .zip(&alignment)
-            .map(|(joint, aligned)| {
+            .enumerate()
+            .map(|(j, (joint, aligned))| {
                 let parent = joint
                     .parent
                     .map_or(Matrix3::identity(), |p| alignment[p].transpose());
@@ -185,6 +191,9 @@ impl Tree<Spatial> {
                     mass: inertia.mass(),
                     center: *inertia.center(),
                     inertia: Symmetric::from_matrix(inertia.rotational()),
+                    symmetric: joint.kind == JointKind::Revolute
+                        && model.joints().iter().all(|other| other.parent != Some(j))
+                        && is_symmetric(&inertia),
                     carried: inertia.mass(),
                 }
             })
@@ -200,4 +209,22 @@ impl Tree<Spatial> {
             Matrix3::identity(),
         )
     }
+}
+
+/// Departure from symmetry, relative to size and moments of inertia, that is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a body is symmetric about the z axis of its frame.
+fn is_symmetric(inertia: &Inertia) -> bool {
+    let (center, moments) = (inertia.center(), inertia.rotational());
+    let skew = [
+        moments.m11 - moments.m22,
+        moments.m12,
+        moments.m13,
+        moments.m23,
+    ];
+    center.xy().amax() <= ROUNDING * center.amax()
+        && skew
+            .iter()
+            .all(|gap| gap.abs() <= ROUNDING * moments.amax())
 }

@@ -7,8 +7,9 @@ use crate::autodiff::Scalar;
 ///
 /// Minimise Φ(ends) + ∫ℒ dt subject to ẋ = f, path and boundary constraints and bounds. All
 /// functions are generic over [`Scalar`], from which values, gradients and Hessians follow; they
-/// must be smooth where they are evaluated. Sparsity is found by sampling derivatives at random
-/// points of the bounds' box; a problem with branches says so by [`Ocp::has_branches`].
+/// must be smooth where they are evaluated. Sparsity follows from their operations, recorded by
+/// [`Trace`](crate::autodiff::Trace); a problem that branches on values says so by
+/// [`Ocp::has_branches`].
 pub trait Ocp: Sync {
     /// Mutable scratch for one number type, so that nothing is allocated in the solve.
     type Scratch<S: Scalar>: Send;
@@ -55,8 +56,10 @@ pub trait Ocp: Sync {
         None
     }
 
-    /// Whether derivatives may vanish in one region and not in another, so that sampling could
-    /// miss a nonzero. Every derivative is then kept in the sparsity pattern.
+    /// Whether the functions branch by `if` or `match` on values, so that operations of one branch
+    /// say nothing of another's. Every derivative is then kept in the sparsity pattern.
+    ///
+    /// `max`, `min` and `abs` of [`Scalar`] are no such branches.
     fn has_branches(&self) -> bool {
         false
     }

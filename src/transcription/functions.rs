@@ -82,11 +82,6 @@ impl<'a, O: Ocp> Boundary<'a, O> {
             rows: formulation.boundary.len(),
         }
     }
-
-    /// Position of the duration among the inputs.
-    pub fn duration(&self) -> usize {
-        2 * self.states
-    }
 }
 
 impl<O: Ocp> Function for Boundary<'_, O> {

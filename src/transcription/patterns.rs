@@ -2,9 +2,9 @@
 
 use super::functions::{Boundary, Node, WayPoint};
 use crate::autodiff::{Function, Sparsity};
-use crate::ocp::{Formulation, Interval, Ocp};
+use crate::ocp::{Formulation, Interval, Ocp, Quantity};
 
-/// Which derivatives of (f, C, ℒ), of (E, Φ) and of each way-point's rows are ever nonzero.
+/// Which derivatives of (f, C, ℒ), of (E, Φ) and of each way-point's rows may be nonzero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Patterns {
     pub(super) node: Sparsity,
@@ -13,64 +13,43 @@ pub struct Patterns {
 }
 
 impl Patterns {
-    /// Samples derivatives at random points of the bounds' box; the same points every time.
+    /// Follows the operations of each function from its variables to its values.
+    ///
+    /// Bounds play no part, so that the patterns hold however they are changed.
     pub fn detect<O: Ocp>(ocp: &O) -> Self {
         let formulation = ocp.formulation();
-        let node = Node::new(ocp, &formulation);
-        let ends = Boundary::new(ocp, &formulation);
-        let free_duration = !formulation.duration.is_fixed();
-        let mut node_used = vec![true; node.inputs()];
-        node_used[node.time()] = free_duration;
-        let mut end_used = vec![true; ends.inputs()];
-        end_used[ends.duration()] = free_duration;
-        let points = (0..formulation.way_points.len())
-            .map(|index| WayPoint::new(ocp, &formulation, index))
-            .collect::<Vec<_>>();
-        let mut point_used = vec![true; formulation.states.len() + 1];
-        point_used[formulation.states.len()] = free_duration;
-        if ocp.has_branches() {
-            return Self {
-                node: Sparsity::dense(node.outputs(), &node_used),
-                ends: Sparsity::dense(ends.outputs(), &end_used),
-                way_points: points
-                    .iter()
-                    .map(|point| Sparsity::dense(point.rows, &point_used))
-                    .collect(),
-            };
-        }
-        let mut draw = Draw::new(&formulation);
+        let inside = |quantities: &[Quantity]| -> Vec<f64> {
+            let bounds = quantities.iter().map(|quantity| &quantity.bounds);
+            bounds.map(inner_value).collect()
+        };
+        let states = inside(&formulation.states);
+        let controls = inside(&formulation.controls);
+        let time = [inner_value(&formulation.duration)];
+        let find = Find {
+            branches: ocp.has_branches(),
+            free_duration: !formulation.duration.is_fixed(),
+        };
+        let points = 0..formulation.way_points.len();
         Self {
-            node: Sparsity::sampled(&node, &node_used, |v| {
-                let duration = draw.within(&formulation.duration);
-                let quantities = formulation.states.iter().chain(&formulation.controls);
-                for (value, quantity) in v.iter_mut().zip(quantities) {
-                    *value = draw.within(&quantity.bounds);
-                }
-                v[node.time()] = draw.within(&Interval::new(0.0, duration));
-            }),
-            ends: Sparsity::sampled(&ends, &end_used, |v| {
-                let states = formulation.states.iter().chain(&formulation.states);
-                for (value, quantity) in v.iter_mut().zip(states) {
-                    *value = draw.within(&quantity.bounds);
-                }
-                v[ends.duration()] = draw.within(&formulation.duration);
-            }),
+            node: find.in_function(
+                &Node::new(ocp, &formulation),
+                &[&states[..], &controls, &time].concat(),
+            ),
+            ends: find.in_function(
+                &Boundary::new(ocp, &formulation),
+                &[&states[..], &states, &time].concat(),
+            ),
             way_points: points
-                .iter()
-                .map(|point| {
-                    Sparsity::sampled(point, &point_used, |v| {
-                        for (value, quantity) in v.iter_mut().zip(&formulation.states) {
-                            *value = draw.within(&quantity.bounds);
-                        }
-                        v[point.states] = draw.within(&formulation.duration);
-                    })
+                .map(|index| {
+                    find.in_function(
+                        &WayPoint::new(ocp, &formulation, index),
+                        &[&states[..], &time].concat(),
+                    )
                 })
                 .collect(),
         }
     }
-}
 
-impl Patterns {
     /// Whether path row `p` is a function of the states and the time alone. What depends on the
     /// controls as well jumps where they switch.
     pub fn path_is_continuous(&self, formulation: &Formulation, p: usize) -> bool {
@@ -82,22 +61,31 @@ impl Patterns {
     }
 }
 
-/// Draws values within bounds.
-struct Draw(fastrand::Rng);
+/// How the patterns of one problem are found.
+struct Find {
+    branches: bool,
+    free_duration: bool,
+}
 
-impl Draw {
-    /// Seeded by the problem's size alone, so that runs repeat.
-    fn new(formulation: &Formulation) -> Self {
-        Self(fastrand::Rng::with_seed(formulation.states.len() as u64))
-    }
-
-    fn within(&mut self, bounds: &Interval) -> f64 {
-        let unit = self.0.f64();
-        match (bounds.lower.is_finite(), bounds.upper.is_finite()) {
-            (true, true) => bounds.lower + unit * (bounds.upper - bounds.lower),
-            (true, false) => bounds.lower + unit,
-            (false, true) => bounds.upper - unit,
-            (false, false) => 2.0 * unit - 1.0,
+impl Find {
+    /// The pattern of `f`, whose last input is a time, evaluated at `at`.
+    fn in_function<F: Function>(&self, f: &F, at: &[f64]) -> Sparsity {
+        let mut used = vec![true; f.inputs()];
+        used[f.inputs() - 1] = self.free_duration;
+        if self.branches {
+            Sparsity::dense(f.outputs(), &used)
+        } else {
+            Sparsity::traced(f, &used, at)
         }
+    }
+}
+
+/// A value within bounds and, where they leave room, not on them.
+fn inner_value(bounds: &Interval) -> f64 {
+    match (bounds.lower.is_finite(), bounds.upper.is_finite()) {
+        (true, true) => bounds.lower + 0.4 * (bounds.upper - bounds.lower),
+        (true, false) => bounds.lower + 0.4,
+        (false, true) => bounds.upper - 0.4,
+        (false, false) => 0.4,
     }
 }
