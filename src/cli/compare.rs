@@ -81,7 +81,7 @@ fn write(path: &Path, file: &ProblemFile, found: &Comparison) -> Result<Vec<Path
     for entry in &found.entries {
         if let Ok(plan) = &entry.plan {
             let own = OutputFolder::create(&path.join(entry.method.name()))?;
-            files.extend(super::plan::write(file, plan, None, &own)?.1);
+            files.extend(super::plan::write(file, plan, &own)?.1);
         }
     }
     Ok(files)

@@ -7,7 +7,7 @@ use crate::config::{ConfigError, Overrides, ProblemFile};
 use crate::planner::{Method, Plan, Planner, Status};
 use crate::report::{self, OutputFolder};
 use crate::solution::{self, Provenance};
-use crate::verify::{self, Verification, verify};
+use crate::verify;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -109,16 +109,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         progress.show(event)
     });
     progress.finish();
-    let plan = plan.map_err(|error| Failure::planning(&file, warm_start, error))?;
-    let checked = match plan.status {
-        // Where the integration gets stuck, as it may on a bad plan, there is nothing to tell.
-        Status::Solved | Status::NotConverged => verify(&file.problem, &plan.discretization).ok(),
-        // No plan to check, or no time for it.
-        Status::Infeasible | Status::Interrupted => None,
-    };
+    let mut plan = plan.map_err(|error| Failure::planning(&file, warm_start, error))?;
+    plan.verify(&file.problem);
 
-    let (json, files) = write(&file, &plan, checked.as_ref(), &folder)?;
-    let summary = || report::summary(&file.problem, &plan, checked.as_ref(), &files);
+    let (json, files) = write(&file, &plan, &folder)?;
+    let summary = || report::summary(&file.problem, &plan, &files);
     if arguments.json {
         terminal::print(&json)?;
     }
@@ -142,11 +137,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 pub(super) fn write(
     file: &ProblemFile,
     plan: &Plan,
-    checked: Option<&Verification>,
     folder: &OutputFolder,
 ) -> Result<(String, Vec<PathBuf>), Failure> {
     let provenance = Provenance::of(file, &plan.linear_solver);
-    let saved = solution::solution(&file.problem.name, plan, checked, provenance);
+    let saved = solution::solution(&file.problem.name, plan, provenance);
     let failure = |message: String| Failure::Format {
         path: file.path.clone(),
         message,

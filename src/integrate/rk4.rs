@@ -15,7 +15,7 @@ const STAGES: [(f64, f64); 4] = [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)]
 /// Rk4::new(1).integrate(|_t, y, dy| dy[0] = -y[0], [0.0, 1.0], 100, &mut y);
 /// assert!((y[0] - (-1.0_f64).exp()).abs() < 1e-10);
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rk4 {
     /// Where the current stage is evaluated.
     at: Vec<f64>,

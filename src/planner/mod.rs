@@ -7,6 +7,7 @@ mod event;
 mod joint_space;
 mod method;
 mod plan;
+mod verification;
 mod words;
 
 pub use crate::refine::Start;

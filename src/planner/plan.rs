@@ -7,6 +7,7 @@ use crate::problem::{LimitId, Unit};
 use crate::refine::Record;
 use crate::system::{Component, Metrics, Reached, Trajectory};
 use crate::transcription::Discretization;
+use crate::verify::Verification;
 use std::time::Duration;
 
 /// How planning ended.
@@ -115,6 +116,8 @@ pub struct Plan {
     pub goals: Vec<Reached>,
     /// Why there is no plan; only where the status is infeasible.
     pub diagnosis: Option<Diagnosis>,
+    /// What re-integration found; `None` before [`Plan::verify`], or where it failed.
+    pub verification: Option<Verification>,
     /// What a user should know before using the plan, a sentence each.
     pub warnings: Vec<String>,
     /// The linear solver used: "ours", or Ipopt's name of another; both where MUMPS had to stand in

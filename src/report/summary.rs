@@ -7,19 +7,14 @@ use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
 use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Status};
 use crate::problem::Problem;
+use crate::refine::Verdict;
 use crate::solution;
 use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
 
-/// The summary of `plan`, some twenty lines; `checked` where it was re-integrated; `files`
-/// are those written.
-pub fn summary(
-    problem: &Problem,
-    plan: &Plan,
-    checked: Option<&Verification>,
-    files: &[PathBuf],
-) -> String {
+/// The summary of `plan`, some twenty lines; `files` are those written.
+pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
     let mut lines = Lines::default();
     if plan.status != Status::Infeasible {
         quality(&mut lines, plan);
@@ -29,7 +24,7 @@ pub fn summary(
     }
     motion(&mut lines, &problem.robot, plan);
     goals(&mut lines, problem, plan);
-    if let Some(found) = checked {
+    if let Some(found) = &plan.verification {
         verification(&mut lines, &problem.robot, found);
     }
     for warning in &plan.warnings {
@@ -121,12 +116,10 @@ fn status(plan: &Plan) -> String {
         (Status::Infeasible, Some(diagnosis)) => format!("infeasible: {}", diagnosis.summary),
         (Status::Infeasible, None) => "infeasible".into(),
         (Status::NotConverged, _) => {
-            let why = match plan.iterations.last() {
-                Some(last) if !last.nlp_status.is_solved() => last.nlp_status.describe(),
-                Some(last) if last.max_error <= plan.tolerance => {
-                    "a limit is far exceeded between the points of the mesh"
-                }
-                _ => "the tolerance is not reached",
+            let why = match plan.iterations.last().map(|last| last.verdict) {
+                Some(Verdict::Converged) => "re-integration does not confirm it".into(),
+                Some(other) => other.to_string(),
+                None => "the motion is not as accurate as it should be".into(),
             };
             format!("NOT converged, {why}; this is the best trajectory found")
         }

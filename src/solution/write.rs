@@ -8,13 +8,8 @@ use crate::planner::{self, Plan};
 use crate::refine::Record;
 use crate::{nlp, system, verify};
 
-/// The solution file of `plan` for the problem `name`, `checked` where it was re-integrated.
-pub fn solution(
-    name: &str,
-    plan: &Plan,
-    checked: Option<&verify::Verification>,
-    provenance: Provenance,
-) -> Solution {
+/// The solution file of `plan` for the problem `name`.
+pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
     let mesh = &plan.discretization.mesh;
     Solution {
         schema: 1,
@@ -34,7 +29,7 @@ pub fn solution(
         trajectory: trajectory(&plan.trajectory),
         metrics: metrics(&plan.metrics),
         goals: plan.goals.iter().map(goal).collect(),
-        verification: checked.map(verification),
+        verification: plan.verification.as_ref().map(verification),
         diagnosis: plan.diagnosis.as_ref().map(diagnosis),
         warnings: plan.warnings.clone(),
         timing: timing(&plan.timing),

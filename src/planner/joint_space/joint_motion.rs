@@ -4,6 +4,7 @@ use crate::collocation::{Mesh, MeshError};
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
+use crate::integrate::Rk4;
 use crate::nlp::Iterate;
 use crate::ocp::Interval;
 use crate::planner::collocation::diagnosis::findings;
@@ -122,6 +123,7 @@ pub(super) fn assemble<Sp: Space>(
         trajectory,
         discretization,
         diagnosis,
+        verification: None,
         warnings: Vec::new(),
         timing: Timing {
             setup: elapsed,
@@ -273,6 +275,7 @@ struct Follower<'a, Sp: Space, M: JointMotion> {
     data: Data<Sp, f64>,
     /// Longest step, s.
     step: f64,
+    method: Rk4,
     eta: Vec<f64>,
     q: Vec<f64>,
     dq: Vec<f64>,
@@ -288,6 +291,7 @@ impl<'a, Sp: Space, M: JointMotion> Follower<'a, Sp, M> {
             motion,
             data: Data::new(system.tree()),
             step: breakpoints[breakpoints.len() - 1] / STEPS,
+            method: Rk4::new(system.attitude().count()),
             eta: system.attitude().start().to_vec(),
             q: vec![0.0; n],
             dq: vec![0.0; n],
@@ -299,42 +303,31 @@ impl<'a, Sp: Space, M: JointMotion> Follower<'a, Sp, M> {
     fn carry(&mut self, piece: usize, from: f64, to: f64) {
         let steps = ((to - from) / self.step).ceil();
         let h = (to - from) / steps;
+        let mut method = std::mem::take(&mut self.method);
+        let mut eta = std::mem::take(&mut self.eta);
         for step in 0..steps as usize {
-            let t = from + step as f64 * h;
-            let start = self.eta.clone();
-            let mut next = start.clone();
-            let mut slope = vec![0.0; start.len()];
-            for (ahead, share) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
-                let at: Vec<f64> = (start.iter().zip(&slope))
-                    .map(|(a, k)| a + ahead * h * k)
-                    .collect();
-                slope = self.rate(piece, t + ahead * h, &at);
-                for (value, k) in next.iter_mut().zip(&slope) {
-                    *value += share * h / 6.0 * k;
-                }
-            }
-            self.eta = next;
+            let rate = |t: f64, eta: &[f64], rates: &mut [f64]| self.rate(piece, t, eta, rates);
+            method.step(rate, from + step as f64 * h, h, &mut eta);
         }
+        (self.method, self.eta) = (method, eta);
     }
 
-    fn rate(&mut self, piece: usize, t: f64, eta: &[f64]) -> Vec<f64> {
+    fn rate(&mut self, piece: usize, t: f64, eta: &[f64], rates: &mut [f64]) {
         self.motion
             .at(piece, t, &mut self.q, &mut self.dq, &mut self.ddq);
-        let mut rates = vec![0.0; eta.len()];
         let data = &mut self.data;
         self.system.tree().kinematics(&self.q, data);
         self.system.tree().momentum(data);
         self.system.base_rate(eta, &self.dq, data);
         let attitude = self.system.attitude();
-        attitude.rates(eta, &data.base_rate, &mut rates);
-        rates
+        attitude.rates(eta, &data.base_rate, rates);
     }
 
     /// States [η, θ, θ̇] at `t`, where the base has been carried to, and the controls
     /// u = θ̈ + H⁻¹Cθ̇.
     fn node(&mut self, piece: usize, t: f64, x: &mut [f64], u: &mut [f64]) {
         let eta = self.eta.clone();
-        self.rate(piece, t, &eta);
+        self.rate(piece, t, &eta, &mut vec![0.0; eta.len()]);
         let data = &mut self.data;
         let tree = self.system.tree();
         tree.mass_matrix(data);

@@ -88,7 +88,7 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
 /// task is not from rest to rest.
 fn straight(problem: &Problem, plan: &Discretization) -> Option<Trajectory> {
     let task = &problem.task;
-    if !task.initial_momentum.is_zero() || task.initial_rates.iter().any(|rate| *rate != 0.0) {
+    if task.initial_rates.iter().any(|rate| *rate != 0.0) {
         return None;
     }
     let n = problem.robot.joint_count();

@@ -25,6 +25,7 @@ mod quadratic;
 use super::joint_motion::{JointMotion, THERE, assemble, duration, goal_missed, rest_to_rest};
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::Space;
+use crate::integrate::Rk4;
 use crate::nlp::Control;
 use crate::ocp::Interval;
 use crate::planner::{Event, Method, Plan, PlanError, Status};
@@ -255,17 +256,11 @@ impl<'a, Sp: Space> Stepper<'a, Sp> {
             (q, dq)
         };
         let mut eta = state.eta.clone();
-        let mut slope = vec![0.0; eta.len()];
-        for (ahead, share) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
-            let at: Vec<f64> = (state.eta.iter().zip(&slope))
-                .map(|(a, k)| a + ahead * h * k)
-                .collect();
-            let (q, dq) = joints(ahead * h);
-            slope = self.instant.base_rate(&at, &q, &dq);
-            for (value, k) in eta.iter_mut().zip(&slope) {
-                *value += share * h / 6.0 * k;
-            }
-        }
+        let rate = |t: f64, eta: &[f64], rates: &mut [f64]| {
+            let (q, dq) = joints(t);
+            rates.copy_from_slice(&self.instant.base_rate(eta, &q, &dq));
+        };
+        Rk4::new(eta.len()).step(rate, 0.0, h, &mut eta);
         let (q, dq) = joints(h);
         State { eta, q, dq }
     }

@@ -4,6 +4,7 @@ use super::coupling::{Coupling, dot, scale_to_unit};
 use crate::autodiff::{Dual, Scalar};
 use crate::dynamics::space::Space;
 use crate::dynamics::{Data, Tree};
+use crate::integrate::Rk4;
 
 /// Which way a path goes at every posture.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,16 +65,10 @@ impl<Sp: Space> Field<'_, Sp> {
     /// One step of the classical Runge-Kutta method, `h` of arc length from `q`.
     pub fn step(&self, q: &[f64], h: f64, data: &mut Data<Sp, f64>) -> Vec<f64> {
         let mut next = q.to_vec();
-        let mut slope = vec![0.0; q.len()];
-        for (ahead, share) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
-            let at: Vec<f64> = (q.iter().zip(&slope))
-                .map(|(q, k)| q + ahead * h * k)
-                .collect();
-            slope = self.tangent(&at, data);
-            for (value, k) in next.iter_mut().zip(&slope) {
-                *value += share * h / 6.0 * k;
-            }
-        }
+        let tangent = |_: f64, q: &[f64], slope: &mut [f64]| {
+            slope.copy_from_slice(&self.tangent(q, data));
+        };
+        Rk4::new(q.len()).step(tangent, 0.0, h, &mut next);
         next
     }
 

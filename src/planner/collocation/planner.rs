@@ -1,0 +1,289 @@
+//! The planner: a first trajectory, refinement, and a diagnosis where there is none.
+
+use super::sparsity_cache::SparsityCache;
+use super::warnings::warnings;
+use super::{bound_warnings, diagnosis, retarget};
+use crate::dynamics::attitude::Attitude;
+use crate::dynamics::space::Space;
+use crate::nlp::{self, Control, ipopt};
+use crate::ocp::Ocp;
+use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
+use crate::problem::Problem;
+use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
+use crate::system::{
+    FreeFloating, JointPath, System, along, gaps, metrics, trajectory, with_system,
+};
+use std::time::{Duration, Instant};
+
+/// Barrier parameter a saved solution is taken up with.
+const WARM_BARRIER: f64 = 1e-8;
+
+/// Plans `problem` with a fresh [`Planner`].
+///
+/// # Errors
+/// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
+pub fn plan(problem: &Problem) -> Result<Plan, PlanError> {
+    Planner::new().plan(problem)
+}
+
+/// Plans problems one after another and keeps what they share.
+///
+/// Sparsity patterns are found once; problems that differ in where the motion begins and ends, in
+/// the mesh and in the solver alone reuse them.
+#[derive(Debug, Default)]
+pub struct Planner {
+    sparsity: SparsityCache,
+}
+
+impl Planner {
+    /// A planner with nothing kept yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Plans `problem` from a straight joint path.
+    ///
+    /// # Errors
+    /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
+    pub fn plan(&mut self, problem: &Problem) -> Result<Plan, PlanError> {
+        self.plan_with(problem, None, &mut |_| Control::Continue)
+    }
+
+    /// Plans `problem` from `start`, telling `monitor` of every step.
+    ///
+    /// The start is led to the problem's own ends first. One with multipliers makes the first solve
+    /// a warm one; they may be those of a problem with other rows on the same robot.
+    ///
+    /// # Errors
+    /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
+    pub fn plan_with(
+        &mut self,
+        problem: &Problem,
+        start: Option<&Start>,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+    ) -> Result<Plan, PlanError> {
+        let began = Instant::now();
+        problem.validate()?;
+        with_system!(&System::new(problem), system => {
+            self.run(problem, system, start, monitor, began)
+        })
+    }
+
+    fn run<Sp: Space>(
+        &mut self,
+        problem: &Problem,
+        system: &FreeFloating<Sp>,
+        start: Option<&Start>,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+        began: Instant,
+    ) -> Result<Plan, PlanError> {
+        let mut solver = problem.solver.clone();
+        if start.is_some_and(|start| start.iterate.is_some()) {
+            solver.warm_start.get_or_insert(WARM_BARRIER);
+        }
+        let start = match start {
+            Some(given) => led(given, problem, system)?,
+            None => straight(problem, system)?,
+        };
+        let refinement = Refinement {
+            ocp: system,
+            patterns: self.sparsity.patterns(problem, system),
+            settings: &problem.mesh,
+            solver: &solver,
+        };
+        let search = Search {
+            problem,
+            system,
+            refinement,
+        };
+        let found = search.run(&start, monitor)?;
+        Ok(assemble(problem, system, found, &solver, began))
+    }
+}
+
+/// `given` led to the ends of `problem`.
+fn led<Sp: Space>(
+    given: &Start,
+    problem: &Problem,
+    system: &FreeFloating<Sp>,
+) -> Result<Start, PlanError> {
+    check_start(given, system)?;
+    Ok(Start {
+        trajectory: retarget::retarget(&given.trajectory, problem),
+        iterate: given.iterate.clone(),
+    })
+}
+
+/// The straight joint path on the first mesh.
+fn straight<Sp: Space>(problem: &Problem, system: &FreeFloating<Sp>) -> Result<Start, PlanError> {
+    let path = JointPath::new(problem, &[]);
+    let duration = problem.task.duration.center();
+    let fractions = system.formulation().way_point_fractions();
+    let mesh = problem.mesh.first_mesh()?.through(&fractions)?;
+    Ok(Start {
+        trajectory: along(system, duration, &path, mesh),
+        iterate: None,
+    })
+}
+
+/// What the search for a plan came to.
+struct Found {
+    status: Status,
+    outcome: Outcome,
+    diagnosis: Option<Diagnosis>,
+}
+
+struct Search<'a, Sp: Space> {
+    problem: &'a Problem,
+    system: &'a FreeFloating<Sp>,
+    refinement: Refinement<'a, FreeFloating<Sp>>,
+}
+
+impl<Sp: Space> Search<'_, Sp> {
+    /// Refines from `start`; where nothing is found, asks why, and begins again from a trajectory
+    /// within all limits where the answer is one.
+    fn run(
+        &self,
+        start: &Start,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+    ) -> Result<Found, PlanError> {
+        let first = self.refine(start, monitor)?;
+        if first.status != Status::NotConverged || first.outcome.status.is_solved() {
+            return Ok(first);
+        }
+        let mut outcome = first.outcome;
+        let (problem, system) = (self.problem, self.system);
+        let diagnosed = diagnosis::diagnose(problem, system, &outcome.trajectory, monitor)?;
+        outcome.statistics.add(&diagnosed.statistics);
+        let ended = |status, outcome, diagnosis| Found {
+            status,
+            outcome,
+            diagnosis,
+        };
+        if diagnosed.interrupted {
+            return Ok(ended(Status::Interrupted, outcome, None));
+        }
+        if let Some(diagnosis) = diagnosed.diagnosis {
+            outcome.trajectory = diagnosed.trajectory;
+            outcome.objective = system.cost_terms(&outcome.trajectory).total();
+            return Ok(ended(Status::Infeasible, outcome, Some(diagnosis)));
+        }
+        if !diagnosed.feasible {
+            return Ok(ended(Status::NotConverged, outcome, None));
+        }
+        let again = Start {
+            trajectory: diagnosed.trajectory,
+            iterate: None,
+        };
+        let mut second = self.refine(&again, monitor)?;
+        let records = &mut second.outcome.records;
+        records.splice(0..0, outcome.records);
+        second.outcome.statistics.add(&outcome.statistics);
+        Ok(second)
+    }
+
+    fn refine(
+        &self,
+        start: &Start,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+    ) -> Result<Found, PlanError> {
+        let mut stopped = false;
+        let outcome = self.refinement.run(start, &mut |event| {
+            let control = monitor(&Event::Refinement(event));
+            stopped |= control == Control::Stop;
+            control
+        })?;
+        Ok(Found {
+            status: grade(&outcome, stopped),
+            outcome,
+            diagnosis: None,
+        })
+    }
+}
+
+/// The plan of what was found.
+fn assemble<Sp: Space>(
+    problem: &Problem,
+    system: &FreeFloating<Sp>,
+    found: Found,
+    solver: &nlp::Settings,
+    began: Instant,
+) -> Plan {
+    let Found {
+        status,
+        outcome,
+        diagnosis,
+    } = found;
+    let trajectory = trajectory(system, &outcome.trajectory);
+    let mut warnings = warnings(&trajectory, &outcome, solver);
+    let max_error = if status == Status::Infeasible {
+        midpoint_errors(system, &outcome.trajectory).max()
+    } else {
+        warnings.extend(bound_warnings::warnings(system, &outcome.violations));
+        outcome.max_error()
+    };
+    Plan {
+        status,
+        method: Method::Collocation(problem.mesh.method),
+        objective: outcome.objective,
+        tolerance: problem.mesh.tolerance,
+        max_error,
+        metrics: metrics(&trajectory),
+        goals: gaps(system, &outcome.trajectory),
+        timing: timing(&outcome.statistics, began.elapsed()),
+        linear_solver: linear_solver(solver, &outcome.statistics),
+        iterations: outcome.records,
+        discretization: outcome.trajectory,
+        iterate: outcome.iterate,
+        trajectory,
+        diagnosis,
+        verification: None,
+        warnings,
+    }
+}
+
+/// The linear solver behind a plan.
+fn linear_solver(settings: &nlp::Settings, statistics: &nlp::Statistics) -> String {
+    let mut name = ipopt::linear_solver(settings);
+    if statistics.fallbacks > 0 {
+        name.push_str(", mumps");
+    }
+    name
+}
+
+fn check_start<Sp: Space>(start: &Start, system: &FreeFloating<Sp>) -> Result<(), PlanError> {
+    let joints = system.joint_count();
+    let expected = system.attitude().count() + 2 * joints;
+    let (found, controls) = (start.trajectory.states, start.trajectory.controls);
+    if (found, controls) == (expected, joints) {
+        Ok(())
+    } else {
+        Err(PlanError::Start {
+            found,
+            controls,
+            expected,
+            joints,
+        })
+    }
+}
+
+fn grade(outcome: &Outcome, stopped: bool) -> Status {
+    if stopped || outcome.status == nlp::Status::Interrupted {
+        Status::Interrupted
+    } else if outcome.converged {
+        Status::Solved
+    } else {
+        Status::NotConverged
+    }
+}
+
+fn timing(statistics: &nlp::Statistics, total: Duration) -> Timing {
+    let known = statistics.derivatives + statistics.linear_solver;
+    Timing {
+        setup: total.saturating_sub(statistics.total),
+        derivatives: statistics.derivatives,
+        linear_solver: statistics.linear_solver,
+        ipopt_other: statistics.total.saturating_sub(known),
+        total,
+    }
+}

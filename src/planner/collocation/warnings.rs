@@ -1,0 +1,82 @@
+//! What a user should know before using a plan, a sentence each.
+
+use crate::dynamics::attitude::SpatialAttitude;
+use crate::nlp::{self, ipopt};
+use crate::refine::Outcome;
+use crate::system::Trajectory;
+
+/// The warnings about a trajectory, and about how it was found.
+pub(super) fn warnings(
+    trajectory: &Trajectory,
+    outcome: &Outcome,
+    solver: &nlp::Settings,
+) -> Vec<String> {
+    let found = [
+        near_singularity(trajectory),
+        ipopt::why_not_ours(solver),
+        fallback(&outcome.statistics),
+        discarded(outcome),
+    ];
+    found.into_iter().flatten().collect()
+}
+
+/// A word about meshes that were tried for nothing.
+fn discarded(outcome: &Outcome) -> Option<String> {
+    let count = outcome.discarded.len();
+    let meshes = if count == 1 { "mesh" } else { "meshes" };
+    (count > 0).then(|| {
+        format!(
+            "{count} finer {meshes}, tried for the sake of limits between the points, did not \
+             converge; this is the plan before, the time is that of all"
+        )
+    })
+}
+
+/// A word where MUMPS had to stand in for our own linear solver.
+fn fallback(statistics: &nlp::Statistics) -> Option<String> {
+    (statistics.fallbacks > 0).then(|| {
+        format!(
+            "our linear solver could not serve {} of the solves; MUMPS took them over",
+            statistics.fallbacks
+        )
+    })
+}
+
+/// Base pitch beyond which roll-pitch-yaw rates are more than ten times the base's own, rad.
+const STEEP: f64 = 1.47;
+/// Length of modified Rodrigues parameters beyond which their rates are more than ten times those
+/// of a base that has not turned; 286°.
+const LONG: f64 = 3.0;
+
+/// A word about the description of the attitude where the base comes close to its singularity.
+fn near_singularity(trajectory: &Trajectory) -> Option<String> {
+    let most = |size: fn(&[f64]) -> f64| {
+        let rows = trajectory.base_attitude.iter();
+        rows.map(|eta| size(eta)).fold(0.0, f64::max)
+    };
+    match trajectory.attitude? {
+        SpatialAttitude::RollPitchYaw => {
+            let steepest = most(|eta| eta[1].abs());
+            (steepest > STEEP).then(|| {
+                format!(
+                    "the base pitches to {:.1}°, and roll-pitch-yaw is singular at 90°: roll and \
+                     yaw there are not to be relied on, nor may a failure to converge say \
+                     anything about the task; plan with base.attitude = \"quaternion\" or \"mrp\"",
+                    steepest.to_degrees()
+                )
+            })
+        }
+        SpatialAttitude::Quaternion => None,
+        SpatialAttitude::Mrp => {
+            let longest = most(|eta| eta.iter().map(|s| s * s).sum::<f64>().sqrt());
+            (longest > LONG).then(|| {
+                format!(
+                    "the base turns by {:.1}°, and modified Rodrigues parameters are singular at \
+                     360°: a failure to converge may say nothing about the task; plan with \
+                     base.attitude = \"quaternion\"",
+                    (4.0 * longest.atan()).to_degrees()
+                )
+            })
+        }
+    }
+}
