@@ -99,7 +99,7 @@ impl<Sp: Space> FreeFloating<Sp> {
 
     /// The base position, `t` seconds after t₀, inertial axes, m; needs [`Tree::momentum`].
     pub fn base_position<S: Scalar>(&self, eta: &[S], t: S, data: &Data<Sp, S>) -> Sp::Linear<S> {
-        self.plant.base_position(eta, t, data)
+        self.plant.base_position(eta, t, &data.system_center)
     }
 
     /// Number of joints n.

@@ -35,9 +35,14 @@ impl<Sp: Space> Linearization<'_, Sp> {
         self.plant.states()
     }
 
+    /// Input that the time is, the last one.
+    pub fn time(&self) -> usize {
+        self.states() + self.joints()
+    }
+
     /// Number of inputs, the width of a row.
     pub fn width(&self) -> usize {
-        self.states() + self.joints() + 1
+        self.time() + 1
     }
 
     /// Input that joint position `j` is.

@@ -52,9 +52,14 @@ impl<Sp: Space> Plant<Sp> {
         self.drift.tumble(self.attitude, eta, data);
     }
 
-    /// ζ, `t` seconds after t₀, m. Needs [`Tree::momentum`].
-    pub fn base_position<S: Scalar>(&self, eta: &[S], t: S, data: &Data<Sp, S>) -> Sp::Linear<S> {
-        let mut position = self.attitude.base_position(eta, &data.system_center);
+    /// ζ, `t` seconds after t₀, m; `center` is the system's mass centre in base axes.
+    pub fn base_position<S: Scalar>(
+        &self,
+        eta: &[S],
+        t: S,
+        center: &Sp::Linear<S>,
+    ) -> Sp::Linear<S> {
+        let mut position = self.attitude.base_position(eta, center);
         self.drift.carry(t, position.components_mut());
         position
     }

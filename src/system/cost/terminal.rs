@@ -71,7 +71,7 @@ impl<Sp: Space> EndTerm<Sp> for FinalPositionTerm {
     }
 
     fn value<S: Scalar>(&self, at: &Pose<'_, Sp, S>) -> S {
-        let end = at.plant.base_position(at.eta, at.t, at.data);
+        let end = at.plant.base_position(at.eta, at.t, &at.data.system_center);
         let start = at.plant.start_position.components();
         let mut sum = S::zero();
         for ((&weight, &z), &z0) in self.0.iter().zip(end.components()).zip(start) {
