@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let joints = problem.robot.joints();
     terminal::print(&verification_summary(
         &problem.name,
-        &saved.solution.status,
+        saved.solution.status,
         joints.iter().all(|joint| joint.kind == JointKind::Revolute),
         &found,
         &files,

@@ -8,10 +8,13 @@ use crate::refine::Record;
 use crate::system::{Component, Metrics, Reached, Trajectory};
 use crate::transcription::Discretization;
 use crate::verify::Verification;
+use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// How planning ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Status {
     /// All limits hold and the largest error (28) is within the tolerance.
     Solved,
@@ -31,6 +34,14 @@ impl Status {
             Self::Infeasible => "infeasible",
             Self::NotConverged => "not_converged",
             Self::Interrupted => "interrupted",
+        }
+    }
+
+    /// The same in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::NotConverged => "not converged",
+            other => other.name(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Sheet;
 use super::rows::Rows;
+use crate::planner::Status;
 use crate::study::pareto::FrontPoint;
 use crate::system::JointEffort;
 use serde::Serialize;
@@ -14,7 +15,7 @@ pub type FrontReport<'a> = Rows<'a, FrontRow>;
 pub struct FrontRow {
     /// On the weights of the base.
     pub(super) factor: f64,
-    pub(super) status: &'static str,
+    pub(super) status: Status,
     /// Weighted terms of the cost about the base, without the factor.
     pub(super) base_motion: f64,
     /// Weighted terms of the cost about the joints.
@@ -43,7 +44,7 @@ impl FrontRow {
         let metrics = &plan.metrics;
         Self {
             factor: point.factor,
-            status: plan.status.name(),
+            status: plan.status,
             base_motion: point.base,
             joint_effort: point.joints,
             max_base_attitude: metrics.max_base_attitude,
@@ -64,7 +65,7 @@ impl FrontRow {
 
     /// Whether the point belongs to the curve.
     pub(super) fn is_solved(&self) -> bool {
-        self.status == "solved"
+        self.status == Status::Solved
     }
 }
 
@@ -109,7 +110,7 @@ impl<'a> FrontReport<'a> {
         for row in &self.rows {
             sheet.row(vec![
                 format!("{:.3e}", row.factor),
-                row.status.replace('_', " "),
+                row.status.words().into(),
                 format!("{:.4e}", row.base_motion),
                 format!("{:.4e}", row.joint_effort),
                 format!("{:.3}", row.max_base_attitude.to_degrees()),

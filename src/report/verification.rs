@@ -1,6 +1,7 @@
 //! What `verify` leaves behind: `verification.json` and the lines a person reads.
 
 use super::Lines;
+use crate::planner::Status;
 use crate::solution;
 use crate::solution::{Build, Verification, to_json};
 use crate::verify;
@@ -38,7 +39,7 @@ pub fn verification_json(
 /// What re-integration found, in degrees and centimetres; `joints_turn` where no joint slides.
 pub fn verification_summary(
     name: &str,
-    status: &str,
+    status: Status,
     joints_turn: bool,
     found: &verify::Verification,
     files: &[PathBuf],
@@ -86,7 +87,8 @@ pub fn verification_summary(
     lines.add("steps", found.steps.to_string());
     lines.files(files);
     format!(
-        "{name}: planned ({status}), the unreduced dynamics integrated again\n\n{}",
+        "{name}: planned ({}), the unreduced dynamics integrated again\n\n{}",
+        status.words(),
         lines.finish()
     )
 }

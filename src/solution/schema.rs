@@ -1,6 +1,7 @@
 //! `solution.json`, name by name.
 
 use super::{Provenance, number};
+use crate::planner::Status;
 use serde::{Deserialize, Serialize};
 
 /// The whole file. SI units and radians; numbers that are not finite are null.
@@ -11,7 +12,7 @@ pub struct Solution {
     /// Name of the problem.
     pub name: String,
     /// "solved", "infeasible", "not_converged" or "interrupted".
-    pub status: String,
+    pub status: Status,
     /// "a-rpm" or "rpm".
     pub method: String,
     /// Cost J of (14).

@@ -14,7 +14,7 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
     Solution {
         schema: 1,
         name: name.into(),
-        status: plan.status.name().into(),
+        status: plan.status,
         method: plan.method.name().into(),
         objective: plan.objective,
         tolerance: plan.tolerance,

@@ -7,7 +7,7 @@ mod texts;
 
 use super::format::time;
 use crate::collocation::Mesh;
-use crate::planner::Method;
+use crate::planner::{Method, Status};
 use crate::problem::Problem;
 use crate::solution::{Build, Solution};
 use crate::system::{Trajectory, resampled, straight_motion};
@@ -25,15 +25,15 @@ const FRAMES: usize = 120;
 
 /// The page of `solution`, which is `plan` for `problem`.
 pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> String {
-    let status = texts::status(solution);
+    let status = solution.status;
     let straight = straight(problem, plan);
     let in_joints = solution.method == Method::StraightLine.name();
     let straight = straight.as_ref().filter(|_| !in_joints);
     // One point a segment: the nodes are the breakpoints.
     let even = Mesh::uniform(FRAMES, 1).map(|mesh| resampled(problem, plan, mesh));
     let title = match status {
-        "solved" => format!("planned, {}", solution.method),
-        other => format!("{}, {other}", solution.method),
+        Status::Solved => format!("planned, {}", solution.method),
+        other => format!("{}, {}", solution.method, other.words()),
     };
     let planned = even.iter().map(|motion| (title.as_str(), motion));
     let compared = straight.map(|motion| ("straight joint path", motion));
@@ -46,12 +46,12 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="generator" content={ "ffsm-ipopt " (Build::VERSION) };
-                title { (solution.name) " · " (status) }
+                title { (solution.name) " · " (status.words()) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 header {
-                    h1 { (solution.name) " " span class={ "status " (solution.status) } { (status) } }
+                    h1 { (solution.name) " " span class={ "status " (status.name()) } { (status.words()) } }
                     p { (texts::lead(solution, &scene)) }
                 }
                 @if let Some(diagnosis) = &solution.diagnosis {
@@ -67,7 +67,7 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
                 section { h2 { "In figures" } (facts(&texts::figures(solution, problem))) }
                 section {
                     h2 {
-                        @if status == "solved" && solution.verification.is_some() { "Why the numbers can be trusted" }
+                        @if status == Status::Solved && solution.verification.is_some() { "Why the numbers can be trusted" }
                         @else { "What was checked" }
                     }
                     (facts(&texts::evidence(solution, problem)))

@@ -2,6 +2,7 @@
 
 use super::scene::Scene;
 use crate::dynamics::JointKind;
+use crate::planner::Status;
 use crate::problem::Problem;
 use crate::report::format::{centimetres, degrees, shares, time};
 use crate::report::peaks::Peaks;
@@ -24,23 +25,15 @@ impl Fact {
     }
 }
 
-/// The status for a person.
-pub(super) fn status(solution: &Solution) -> &'static str {
-    match solution.status.as_str() {
-        "solved" => "solved",
-        "infeasible" => "infeasible",
-        "interrupted" => "interrupted",
-        _ => "not converged",
-    }
-}
-
 /// What came of it, in a few sentences.
 pub(super) fn lead(solution: &Solution, scene: &Scene) -> String {
-    let caution = match solution.status.as_str() {
-        "infeasible" => "This problem has no solution; the motion below does not keep its limits. ",
-        "not_converged" => "This is the best trajectory found, not a converged one. ",
-        "interrupted" => "This is the best trajectory until it was interrupted. ",
-        _ => "",
+    let caution = match solution.status {
+        Status::Infeasible => {
+            "This problem has no solution; the motion below does not keep its limits. "
+        }
+        Status::NotConverged => "This is the best trajectory found, not a converged one. ",
+        Status::Interrupted => "This is the best trajectory until it was interrupted. ",
+        Status::Solved => "",
     };
     let planned = scene.extremes(0).map(|[[most, turned], [_, shifted]]| {
         format!(
