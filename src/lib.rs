@@ -1,7 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 pub mod autodiff;
-pub mod cli;
 pub mod collocation;
 pub mod config;
 pub mod dynamics;
@@ -11,17 +10,23 @@ pub mod nlp;
 pub mod ocp;
 pub mod parallel;
 pub mod planner;
-pub mod plot;
 pub mod problem;
 pub mod refine;
 pub mod report;
-pub mod reproduction;
 pub mod simulate;
 pub mod solution;
 pub mod study;
 pub mod system;
 pub mod transcription;
 pub mod verify;
+
+// Not part of the library's interface: what the program and its tests need to reach.
+#[doc(hidden)]
+pub mod cli;
+#[doc(hidden)]
+pub mod plot;
+#[doc(hidden)]
+pub mod reproduction;
 
 /// The small dense algebra that models are described with.
 pub use nalgebra;

@@ -39,6 +39,21 @@ pub fn two_link() -> Model {
     Model::new("planar-2link", body("base", 15.20, 0.1454, 0.0), joints).unwrap()
 }
 
+/// Mass, first moment and moment of inertia about the base's centre of the stretched two-link
+/// manipulator, from Table I: kg, kg m, kg m².
+pub fn two_link_composite() -> (f64, f64, f64) {
+    let bodies = [
+        (15.20, 0.1454, 0.0),
+        (1.70, 0.0590, 0.156 + 0.364),
+        (1.20, 0.0486, 0.156 + 0.364 + 0.142 + 0.35),
+    ];
+    bodies
+        .iter()
+        .fold((0.0, 0.0, 0.0), |(m, s, i), &(mass, own, at)| {
+            (m + mass, s + mass * at, i + own + mass * at * at)
+        })
+}
+
 /// `table1-relaxed`: the published case without the bounds on the base attitude.
 pub fn relaxed() -> Problem {
     let mut problem = Problem::new(

@@ -1,0 +1,105 @@
+//! Plans that re-integration does not confirm, and what a planner keeps for the next problem.
+
+mod problems;
+mod program;
+
+use ffsm_ipopt::config::ProblemFile;
+use ffsm_ipopt::ocp::Interval;
+use ffsm_ipopt::planner::{Planner, Status, plan};
+use program::{Folder, PROBLEM, edited};
+
+#[test]
+fn a_plan_that_holds_stays_solved() {
+    let problem = problems::smooth();
+    let mut found = plan(&problem).unwrap();
+    found.verify(&problem);
+    assert_eq!(found.status, Status::Solved);
+    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
+    let checked = found.verification.unwrap();
+    assert!(checked.max_joint_drift < 1e-3, "{checked:?}");
+}
+
+#[test]
+fn a_plan_that_drifts_is_not_solved() {
+    let problem = problems::smooth();
+    let mut found = plan(&problem).unwrap();
+    // Another control than the motion needs.
+    for value in &mut found.discretization.u {
+        *value *= 1.2;
+    }
+    found.verify(&problem);
+    assert_eq!(found.status, Status::NotConverged);
+    let [warning] = &found.warnings[..] else {
+        panic!("{:?}", found.warnings)
+    };
+    assert!(warning.contains("joints drift by"), "{warning}");
+    assert!(found.verification.is_some());
+}
+
+#[test]
+fn a_plan_that_cannot_be_checked_is_not_solved() {
+    let problem = problems::smooth();
+    let mut found = plan(&problem).unwrap();
+    found.discretization.u[3] = f64::NAN;
+    found.verify(&problem);
+    assert_eq!(found.status, Status::NotConverged);
+    assert!(found.warnings[0].contains("could not be checked"));
+    assert!(found.verification.is_none());
+}
+
+/// Two coarse segments and a tolerance that everything is within.
+#[test]
+fn the_program_ends_as_for_an_unconverged_plan() {
+    let mesh = "segments = 4\npoints = 5\ntolerance = 1e-3";
+    let coarse = edited(PROBLEM, mesh, "segments = 1\npoints = 3\ntolerance = 10.0");
+    let run = Folder::new(&coarse).run(&["plan", "case.toml"]);
+    assert_eq!(run.code, 4, "{}", run.stderr);
+    for said in [
+        "NOT converged, re-integration does not confirm it",
+        "joints drift by",
+    ] {
+        assert!(run.stdout.contains(said), "{}", run.stdout);
+    }
+}
+
+#[test]
+fn a_planner_keeps_nothing_that_wider_bounds_make_wrong() {
+    let problem = ProblemFile::shipped("chaser-7dof").unwrap().problem;
+    let bounded = |pitch: f64| {
+        let mut problem = problem.clone();
+        problem.limits.base_attitude[1] = Interval::symmetric(pitch);
+        problem.limits.final_base_attitude[1] = Interval::symmetric(pitch);
+        problem.mesh.max_iterations = 1;
+        problem
+    };
+    let mut planner = Planner::new();
+    let held = planner.plan(&bounded(0.0)).unwrap();
+    let free = planner.plan(&bounded(0.5)).unwrap();
+    let fresh = plan(&bounded(0.5)).unwrap();
+    assert_ne!(held.objective, free.objective);
+    assert_eq!(free.objective, fresh.objective);
+    assert_eq!(free.discretization, fresh.discretization);
+}
+
+/// With joints that stand still, momentum turns the whole system as one body.
+#[test]
+fn the_straight_line_figure_knows_the_momentum() {
+    let mut problem = problems::smooth();
+    problem.task.final_joints = problem.task.initial_joints.clone();
+    problem.task.initial_momentum.angular = vec![0.3];
+    problem.task.initial_momentum.linear = vec![0.9, 0.0];
+    let (mass, moment, about_origin) = problems::two_link_composite();
+    let inertia = about_origin - moment * moment / mass;
+    let found = ffsm_ipopt::system::straight_line(&problem);
+    let angle = 0.3 / inertia * 20.0;
+    assert!(
+        (found.base_attitude[0] - angle).abs() < 1e-9,
+        "{found:?} {angle}"
+    );
+    let center = moment / mass;
+    let drift = 0.9 / mass * 20.0;
+    let expected = [drift - center * (angle.cos() - 1.0), -center * angle.sin()];
+    for (found, expected) in found.base_displacement.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+}
