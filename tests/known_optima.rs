@@ -3,7 +3,7 @@
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::nlp::{self, Control};
 use ffsm_ipopt::ocp::{Ends, Formulation, InteriorPoint, Interval, Ocp, Point, Quantity, WayPoint};
-use ffsm_ipopt::refine::{Bounded, Method, Outcome, Refinement, Settings};
+use ffsm_ipopt::refine::{Bounded, Event, Method, Outcome, Record, Refinement, Settings, Verdict};
 use ffsm_ipopt::transcription::Patterns;
 
 /// Solves from the straight line and refines to the tolerance.
@@ -172,6 +172,45 @@ fn bounds_exceeded_between_the_points_are_refined_away() {
     assert!(highest < limit * (1.0 + 1.2e-3), "{highest}");
     // A node stands where the first mesh was outside the farthest.
     assert!(fine.records[1].breakpoints.contains(&found.t));
+}
+
+#[test]
+fn a_mesh_for_the_sake_of_bounds_that_fails_is_put_aside_with_its_record() {
+    let problem = bryson_denham(0.1);
+    let settings = refined(4, 3, 1e3, 20);
+    let full = solve(&problem, &settings);
+    let converged = |record: &Record| record.verdict.is_converged();
+    let count = full.records.iter().position(converged).unwrap() + 1;
+    assert!(count < full.records.len());
+    // The same, stopped on the mesh after the first that counts.
+    let patterns = Patterns::detect(&problem);
+    let refinement = Refinement {
+        ocp: &problem,
+        patterns: &patterns,
+        settings: &settings,
+        solver: &nlp::Settings::default(),
+    };
+    let start = refinement.straight_start().unwrap();
+    let outcome = refinement.run(&start, &mut |event| match event {
+        Event::Mesh { iteration, .. } if iteration > count => Control::Stop,
+        _ => Control::Continue,
+    });
+    let outcome = outcome.unwrap();
+    assert!(outcome.converged && outcome.status.is_solved());
+    assert_eq!(outcome.records.len(), count);
+    let last = outcome.records.last().unwrap();
+    assert_eq!(last.points, outcome.trajectory.mesh.points());
+    assert_eq!(last.objective, outcome.objective);
+    let [aside] = &outcome.discarded[..] else {
+        panic!("{:?}", outcome.discarded)
+    };
+    let interrupted = Verdict::NotSolved(nlp::Status::Interrupted);
+    assert_eq!(aside.verdict, interrupted);
+    assert!(aside.points > last.points);
+    // Its iterations are among those of all solves.
+    let all = outcome.records.iter().chain(&outcome.discarded);
+    let iterations: u32 = all.map(|record| record.nlp_iterations).sum();
+    assert_eq!(outcome.statistics.iterations, iterations);
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! that follows the gain ratio (K. Madsen, H. B. Nielsen, O. Tingleff, "Methods for non-linear
 //! least squares problems", section 3.2).
 
+use crate::largest::largest;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
@@ -18,7 +19,8 @@ pub struct Minimum {
     pub jacobian: Vec<Vec<f64>>,
     /// Times the residuals were evaluated.
     pub evaluations: usize,
-    /// Whether no step was left that reduces the residual.
+    /// Whether no step was left that reduces the residual; not where residuals or their derivatives
+    /// are NaN.
     pub converged: bool,
 }
 
@@ -74,7 +76,10 @@ pub fn minimise<E>(
                 !(z <= 0.0 && g > 0.0 || z >= 1.0 && g < 0.0)
             })
             .collect();
-        let steepest = free.iter().fold(0.0, |m: f64, &i| m.max(gradient[i].abs()));
+        let steepest = largest(free.iter().map(|&i| gradient[i].abs()));
+        if !(steepest.is_finite() && at.sum().is_finite()) {
+            break;
+        }
         if steepest <= 1e-10 * at.sum().max(1e-20) {
             at.converged = true;
             break;
@@ -202,6 +207,14 @@ mod tests {
         let found = solve(&[0.9, 0.3], |z| vec![z[0] - 0.25]);
         assert!((found.z[0] - 0.25).abs() < 1e-6);
         assert_eq!(found.z[1], 0.3);
+    }
+
+    #[test]
+    fn residuals_that_are_not_numbers_are_no_minimum() {
+        assert!(!solve(&[0.5], |_| vec![f64::NAN]).converged);
+        // At the start there is a value, beside it there is none.
+        let edge = |z: &[f64]| vec![if z[0] == 0.5 { 1.0 } else { f64::NAN }];
+        assert!(!solve(&[0.5], edge).converged);
     }
 
     #[test]
