@@ -192,8 +192,8 @@ impl Planner {
         };
         let warnings = [
             near_singularity(&trajectory),
-            ipopt::why_not_ours(&solver),
-            fallback(&outcome.statistics),
+            ipopt::why_not_multifrontal(&solver),
+            outcome.statistics.fallback_warning(),
         ];
         Ok(Plan {
             status,
@@ -266,21 +266,11 @@ fn same_shape(a: &Problem, b: &Problem) -> bool {
 
 /// The linear solver behind a plan.
 fn linear_solver(settings: &nlp::Settings, statistics: &nlp::Statistics) -> String {
-    let mut name = ipopt::linear_solver(settings);
+    let mut name = ipopt::linear_solver(settings).to_string();
     if statistics.fallbacks > 0 {
         name.push_str(", mumps");
     }
     name
-}
-
-/// A word where MUMPS had to stand in for our own linear solver.
-fn fallback(statistics: &nlp::Statistics) -> Option<String> {
-    (statistics.fallbacks > 0).then(|| {
-        format!(
-            "our linear solver could not serve {} of the solves; MUMPS took them over",
-            statistics.fallbacks
-        )
-    })
 }
 
 /// Cost (25) of a trajectory that no solve of the problem itself ended at.
