@@ -1,4 +1,4 @@
-//! Our linear solver on the systems of whole solves, beside MUMPS where `scripts/bench-kkt.sh` has
+//! The multifrontal linear solver on the systems of whole solves, beside MUMPS where `scripts/bench-kkt.sh` has
 //! built a way to call it.
 //!
 //! Every system of a solve, and the same shifted as Ipopt shifts for wrong inertia, is factorised
@@ -6,10 +6,12 @@
 //! is to find its memory evicted by the other. Printed are medians over the repetitions, averaged
 //! over the systems. MUMPS is set up as Ipopt sets it up, with the ordering that is its best here.
 
+#![expect(unsafe_code, reason = "MUMPS is called through a shared library")]
+
 mod machine;
 
 use ffsm_ipopt::config::ProblemFile;
-use ffsm_ipopt::nlp::ipopt::{System, record};
+use ffsm_ipopt::nlp::ipopt::{KktSystem, record};
 use ffsm_ipopt::nlp::kkt::{Factors, Symbolic};
 use ffsm_ipopt::parallel;
 use ffsm_ipopt::planner::Planner;
@@ -132,7 +134,7 @@ fn accuracy(
 }
 
 /// The systems as they are, and with the diagonals of the primal part shifted.
-fn shifted(systems: &[System]) -> Vec<System> {
+fn shifted(systems: &[KktSystem]) -> Vec<KktSystem> {
     let mut all = systems.to_vec();
     for system in systems {
         for shift in [1e-4, 1e2] {
@@ -152,16 +154,16 @@ fn shifted(systems: &[System]) -> Vec<System> {
     all
 }
 
-fn compare(systems: &[System], library: Option<&Library>) -> [Option<Times>; 2] {
+fn compare(systems: &[KktSystem], library: Option<&Library>) -> [Option<Times>; 2] {
     let symbolic = &systems[0].symbolic;
     let n = symbolic.len();
-    let (mut ours, mut theirs) = (Times::default(), Times::default());
+    let (mut multifrontal, mut by_mumps) = (Times::default(), Times::default());
     let mut analyses = Vec::new();
     for _ in 0..REPETITIONS {
         let pattern = symbolic.pattern().clone();
         timed(&mut analyses, || black_box(Symbolic::new(pattern)));
     }
-    ours.analyse = median(&mut analyses);
+    multifrontal.analyse = median(&mut analyses);
     let mut factors = Factors::new(symbolic);
     let mumps = library.map(|library| Mumps::new(library, symbolic));
     if let Some(mumps) = &mumps {
@@ -170,7 +172,7 @@ fn compare(systems: &[System], library: Option<&Library>) -> [Option<Times>; 2] 
         for _ in 0..REPETITIONS {
             timed(&mut analyses, || mumps.call(b"mumps_analyse", &mut values));
         }
-        theirs.analyse = median(&mut analyses);
+        by_mumps.analyse = median(&mut analyses);
     }
     for system in systems {
         let b = system.right_hand_sides.first().cloned();
@@ -195,25 +197,25 @@ fn compare(systems: &[System], library: Option<&Library>) -> [Option<Times>; 2] 
             }
         }
         let part = 1.0 / systems.len() as f64;
-        ours.factor += part * median(&mut times[0]);
-        ours.solve += part * median(&mut times[1]);
+        multifrontal.factor += part * median(&mut times[0]);
+        multifrontal.solve += part * median(&mut times[1]);
         let found = accuracy(symbolic, &values, &b, |x| factors.solve(symbolic, x));
-        ours.residual = ours.residual.max(found);
+        multifrontal.residual = multifrontal.residual.max(found);
         if let Some(mumps) = &mumps {
-            theirs.factor += part * median(&mut times[2]);
-            theirs.solve += part * median(&mut times[3]);
+            by_mumps.factor += part * median(&mut times[2]);
+            by_mumps.solve += part * median(&mut times[3]);
             let found = accuracy(symbolic, &values, &b, |x| {
                 mumps.call(b"mumps_solve", x);
             });
-            theirs.residual = theirs.residual.max(found);
-            ours.wrong += usize::from(negative[0] != negative[1]);
+            by_mumps.residual = by_mumps.residual.max(found);
+            multifrontal.wrong += usize::from(negative[0] != negative[1]);
         }
     }
-    [Some(ours), mumps.map(|_| theirs)]
+    [Some(multifrontal), mumps.map(|_| by_mumps)]
 }
 
 /// Operations of a factorisation and a solution against what the machine could do.
-fn roofline(symbolic: &Symbolic, ours: &Times, peak: f64) {
+fn roofline(symbolic: &Symbolic, multifrontal: &Times, peak: f64) {
     let size = symbolic.factor_size() as f64;
     let threads = symbolic.concurrency().min(parallel::thread_count());
     // A solution takes every number of the factors twice, for one multiplication and addition.
@@ -222,10 +224,10 @@ fn roofline(symbolic: &Symbolic, ours: &Times, peak: f64) {
             "factor",
             2.0 * symbolic.multiplications(),
             16.0 * size,
-            ours.factor,
+            multifrontal.factor,
             threads,
         ),
-        ("solve", 4.0 * size, 16.0 * size, ours.solve, 1),
+        ("solve", 4.0 * size, 16.0 * size, multifrontal.solve, 1),
     ] {
         let speed = 1e-3 * operations / time;
         let peak = peak * threads as f64;
@@ -252,7 +254,7 @@ fn main() {
     let library = shim.map(|path| unsafe { Library::new(path) }.expect("the shim loads"));
     let peak = peak();
     println!(
-        "{:>8} {:>6} {:>8} {:>8}  {:>6} {:>12} {:>11} {:>10} {:>10}",
+        "{:>8} {:>6} {:>8} {:>8}  {:>12} {:>12} {:>11} {:>10} {:>10}",
         "robot",
         "mesh",
         "unknowns",
@@ -278,10 +280,10 @@ fn main() {
         plan.expect("a plan");
         let systems = shifted(&systems);
         let both = compare(&systems, library.as_ref());
-        for (name, times) in ["ours", "MUMPS"].into_iter().zip(&both) {
+        for (name, times) in ["multifrontal", "MUMPS"].into_iter().zip(&both) {
             let Some(times) = times else { continue };
             println!(
-                "{:>8} {:>6} {:>8} {:>8}  {:>6} {:>12.0} {:>11.1} {:>10.1} {:>10.1e}",
+                "{:>8} {:>6} {:>8} {:>8}  {:>12} {:>12.0} {:>11.1} {:>10.1} {:>10.1e}",
                 robot,
                 format!("{segments}×{points}"),
                 systems[0].symbolic.len(),
@@ -293,7 +295,7 @@ fn main() {
                 times.residual
             );
         }
-        if let Some(ours) = &both[0] {
+        if let Some(multifrontal) = &both[0] {
             let symbolic = &systems[0].symbolic;
             println!(
                 "{:>8} {} entries, {} fronts, {} numbers in the factors",
@@ -302,13 +304,14 @@ fn main() {
                 symbolic.fronts(),
                 symbolic.factor_size(),
             );
-            roofline(symbolic, ours, peak);
+            roofline(symbolic, multifrontal, peak);
         }
-        if let [Some(ours), Some(theirs)] = &both {
-            let once = (theirs.factor + theirs.solve) / (ours.factor + ours.solve);
+        if let [Some(multifrontal), Some(by_mumps)] = &both {
+            let once =
+                (by_mumps.factor + by_mumps.solve) / (multifrontal.factor + multifrontal.solve);
             println!(
                 "{:>8} factor and solve {once:.2} times faster, inertia unlike on {} systems",
-                "", ours.wrong
+                "", multifrontal.wrong
             );
         }
     }

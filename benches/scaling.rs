@@ -33,10 +33,8 @@ fn iteration(problem: &Problem, mesh: Mesh) -> [f64; 3] {
         max_iterations: 1,
         ..Settings::default()
     };
-    let solver = nlp::Settings {
-        max_iterations: ITERATIONS,
-        ..nlp::Settings::default()
-    };
+    let mut solver = nlp::Settings::default();
+    solver.max_iterations = ITERATIONS;
     let patterns = Patterns::detect(&system);
     let refinement = Refinement {
         ocp: &system,

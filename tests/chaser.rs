@@ -128,7 +128,7 @@ fn plans_do_not_depend_on_the_number_of_threads() {
         parallel::with_threads(threads, || Planner::new().plan(&problem).unwrap())
     };
     let one = plan(1);
-    assert_eq!(one.linear_solver, "ours");
+    assert_eq!(one.linear_solver, "multifrontal");
     let bits = |plan: &Plan| -> Vec<u64> {
         let found = &plan.discretization;
         let all = found.x.iter().chain(&found.u);

@@ -1,4 +1,4 @@
-//! Our linear solver by itself, against dense eigenvalues and dense solutions.
+//! The multifrontal linear solver by itself, against dense eigenvalues and dense solutions.
 
 use fastrand::Rng;
 use ffsm_ipopt::nlp::kkt::{Factors, Inertia, NotFinite, Pattern, PatternError, Symbolic};

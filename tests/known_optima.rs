@@ -9,10 +9,8 @@ use ffsm_ipopt::transcription::Patterns;
 /// Solves from the straight line and refines to the tolerance.
 fn solve<O: Ocp>(ocp: &O, settings: &Settings) -> Outcome {
     settings.validate().unwrap();
-    let solver = nlp::Settings {
-        max_iterations: 2000,
-        ..nlp::Settings::default()
-    };
+    let mut solver = nlp::Settings::default();
+    solver.max_iterations = 2000;
     let patterns = Patterns::detect(ocp);
     let refinement = Refinement {
         ocp,

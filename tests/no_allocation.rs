@@ -34,7 +34,7 @@ fn counts(name: &str, overrides: &[&str], count: usize) -> Vec<[usize; 2]> {
         planner.plan_with(&problem, None, &mut monitor).unwrap()
     });
     assert_eq!(plan.status, Status::Solved);
-    assert_eq!(plan.linear_solver, "ours");
+    assert_eq!(plan.linear_solver, "multifrontal");
     meshes
 }
 

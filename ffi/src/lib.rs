@@ -4,6 +4,12 @@
 //! serves Ipopt 3.11 to 3.14. [`Bool`], [`Index`] and [`Number`] exist in all of them, though a
 //! `Bool` is a C `int` in 3.11 and a C `bool` in 3.14: [`from_bool`] and [`is_true`] convert.
 
+#![expect(
+    unsafe_code,
+    reason = "bindings to C, and functions of libraries looked up at run time"
+)]
+#![warn(missing_debug_implementations)]
+
 pub mod hsl;
 pub mod ma97;
 

@@ -27,11 +27,13 @@ pub(super) fn run(_: &Arguments) -> Result<Outcome, Failure> {
     let working = if solvers.is_empty() {
         "none works".into()
     } else {
-        solvers.join(", ")
+        let names: Vec<&str> = solvers.iter().map(|solver| solver.name()).collect();
+        names.join(", ")
     };
     lines.add("linear solvers", working);
     let settings = nlp::Settings::default();
-    let auto = ipopt::why_not_ours(&settings).unwrap_or_else(|| ipopt::linear_solver(&settings));
+    let auto = ipopt::why_not_multifrontal(&settings)
+        .unwrap_or_else(|| ipopt::linear_solver(&settings).to_string());
     lines.add("linear_solver auto", auto);
     let options = if Path::new("ipopt.opt").exists() {
         "in this folder, and ignored: options come from the problem file alone"

@@ -90,7 +90,7 @@ impl Failure {
             }
             (PlanError::Ipopt(IpoptError::OptionsRefused { linear_solver }), _) => {
                 let expected = "a linear solver that works here, see ffsm-ipopt doctor";
-                value("solver.linear_solver", linear_solver, expected)
+                value("solver.linear_solver", linear_solver.to_string(), expected)
             }
             (PlanError::Ipopt(error @ IpoptError::MissingLibrary { .. }), _) => {
                 let expected = "a linear solver that works here, see ffsm-ipopt doctor";

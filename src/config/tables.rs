@@ -268,7 +268,7 @@ pub(super) fn solver(item: &Item<'_>, solver: &mut nlp::Settings) -> Result<(), 
         solver.max_iterations = item.count(i32::MAX as usize)? as u32;
     }
     if let Some(item) = section.get("linear_solver") {
-        let expected = "\"auto\", \"ours\", or Ipopt's name of a linear solver";
+        let expected = "\"auto\", \"multifrontal\", or Ipopt's name of a linear solver";
         solver.linear_solver = item.text(expected)?.into();
     }
     if let Some(item) = section.get("options") {

@@ -1,5 +1,7 @@
 //! Settings of one solve.
 
+use super::LinearSolver;
+
 /// The value of a solver option given by name.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OptionValue {
@@ -12,15 +14,23 @@ pub enum OptionValue {
 }
 
 /// Settings of one solve. Each field says its default.
+///
+/// ```
+/// use ffsm_ipopt::nlp::Settings;
+///
+/// let mut settings = Settings::default();
+/// settings.tolerance = 1e-6;
+/// settings.linear_solver = "mumps".into();
+/// ```
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Convergence tolerance of the scaled optimality conditions. Default 1e-9.
     pub tolerance: f64,
     /// Limit on iterations. Default 500.
     pub max_iterations: u32,
-    /// Linear solver: "auto" or "ours" for our own, with MUMPS where that cannot be had or fails;
-    /// or Ipopt's name of another. Default "auto".
-    pub linear_solver: String,
+    /// Linear solver. Default [`LinearSolver::Auto`].
+    pub linear_solver: LinearSolver,
     /// Start from the multipliers of the starting iterate as well, with this barrier
     /// parameter. Default `None`: a cold start.
     pub warm_start: Option<f64>,
@@ -37,7 +47,7 @@ impl Default for Settings {
         Self {
             tolerance: 1e-9,
             max_iterations: 500,
-            linear_solver: "auto".into(),
+            linear_solver: LinearSolver::Auto,
             warm_start: None,
             print_level: 0,
             timing: true,

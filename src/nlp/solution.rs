@@ -4,6 +4,7 @@ use super::Iterate;
 use std::time::Duration;
 
 /// How a solve ended, graded from best to worst.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Status {
     /// Optimal to the tolerance.
@@ -60,7 +61,38 @@ impl Status {
     }
 }
 
-/// Counts and times of one solve.
+/// How often each function of a programme was evaluated.
+#[non_exhaustive]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Evaluations {
+    /// The objective.
+    pub objective: u32,
+    /// Its gradient.
+    pub gradient: u32,
+    /// The constraints.
+    pub constraints: u32,
+    /// Their Jacobian.
+    pub jacobian: u32,
+    /// The Hessian of the Lagrangian.
+    pub hessian: u32,
+}
+
+impl Evaluations {
+    /// Adds the counts of another solve.
+    fn add(&mut self, other: &Self) {
+        self.objective += other.objective;
+        self.gradient += other.gradient;
+        self.constraints += other.constraints;
+        self.jacobian += other.jacobian;
+        self.hessian += other.hessian;
+    }
+}
+
+/// Counts and times of one solve, or of several together.
+///
+/// A solve that was begun again with MUMPS counts as one, with the iterations, evaluations and times
+/// of both attempts.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
     /// Iterations of the interior-point method.
@@ -71,13 +103,15 @@ pub struct Statistics {
     pub primal_infeasibility: f64,
     /// Dual infeasibility at the end.
     pub dual_infeasibility: f64,
-    /// Calls of the objective, its gradient, the constraints, the Jacobian and the Hessian.
-    pub evaluations: [u32; 5],
+    /// Evaluations of each function.
+    pub evaluations: Evaluations,
     /// Time in all evaluation callbacks together.
     pub derivatives: Duration,
     /// Time in the linear solver; zero where it was not asked for.
     pub linear_solver: Duration,
-    /// Solves that our own linear solver could not serve and MUMPS took over.
+    /// Number of solves.
+    pub solves: u32,
+    /// How many of them were begun again with MUMPS, since the multifrontal linear solver failed.
     pub fallbacks: u32,
     /// Wall time of the whole solve, callbacks included.
     pub total: Duration,
@@ -87,20 +121,31 @@ impl Statistics {
     /// Adds the counts and times of another solve; barrier and infeasibilities become its.
     pub fn add(&mut self, other: &Self) {
         self.iterations += other.iterations;
-        for (mine, theirs) in self.evaluations.iter_mut().zip(other.evaluations) {
-            *mine += theirs;
-        }
+        self.evaluations.add(&other.evaluations);
         self.derivatives += other.derivatives;
         self.linear_solver += other.linear_solver;
+        self.solves += other.solves;
         self.fallbacks += other.fallbacks;
         self.total += other.total;
         self.barrier = other.barrier;
         self.primal_infeasibility = other.primal_infeasibility;
         self.dual_infeasibility = other.dual_infeasibility;
     }
+
+    /// A sentence for the user where MUMPS had to stand in for the multifrontal linear solver.
+    pub fn fallback_warning(&self) -> Option<String> {
+        (self.fallbacks > 0).then(|| {
+            format!(
+                "the multifrontal linear solver failed in {} of {} solves; MUMPS did them again \
+                 from their start",
+                self.fallbacks, self.solves
+            )
+        })
+    }
 }
 
 /// Result of one solve.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// How it ended.
@@ -116,6 +161,7 @@ pub struct Solution {
 }
 
 /// What the monitor sees after each iteration.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Iteration count.

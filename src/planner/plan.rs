@@ -131,8 +131,8 @@ pub struct Plan {
     pub verification: Option<Verification>,
     /// What a user should know before using the plan, a sentence each.
     pub warnings: Vec<String>,
-    /// The linear solver used: "ours", or Ipopt's name of another; both where MUMPS had to stand in
-    /// for ours at times.
+    /// Name of the linear solver used ([`nlp::LinearSolver::name`]), or "none"; "multifrontal, mumps"
+    /// where MUMPS had to do some of the solves again.
     pub linear_solver: String,
     /// Where the time went.
     pub timing: Timing,

@@ -2,8 +2,8 @@
 
 use super::Build;
 use crate::config::ProblemFile;
-use crate::nlp::ipopt;
-use serde::{Deserialize, Serialize};
+use crate::nlp::{LinearSolver, ipopt};
+use serde::{Deserialize, Deserializer, Serialize};
 use sha2::{Digest, Sha256};
 
 /// What was solved by what.
@@ -13,7 +13,8 @@ pub struct Provenance {
     pub version: String,
     /// Version of Ipopt.
     pub ipopt: String,
-    /// Linear solver inside Ipopt: "ours", or Ipopt's name of another.
+    /// Linear solver inside Ipopt, as of [`crate::planner::Plan::linear_solver`].
+    #[serde(deserialize_with = "current_names")]
     pub linear_solver: String,
     /// SHA-256 of the robot's file, hexadecimal.
     pub robot_sha256: String,
@@ -62,6 +63,11 @@ impl Provenance {
             },
         }
     }
+}
+
+/// Names of linear solvers, of which earlier files have an older one.
+fn current_names<'de, D: Deserializer<'de>>(names: D) -> Result<String, D::Error> {
+    String::deserialize(names).map(|names| LinearSolver::current_names(&names))
 }
 
 /// SHA-256 of a text, hexadecimal.

@@ -1,5 +1,7 @@
 //! Counts allocations; what C allocates is not seen.
 
+#![expect(unsafe_code, reason = "a global allocator")]
+
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};

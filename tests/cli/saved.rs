@@ -165,3 +165,26 @@ fn a_start_of_another_robot_is_refused() {
         run.stderr
     );
 }
+
+/// Files of earlier versions call the multifrontal linear solver "ours".
+#[test]
+fn the_earlier_name_of_the_linear_solver_is_read() {
+    let problem = format!("{PROBLEM}\n[solver]\nlinear_solver = \"ours\"\n");
+    let folder = Folder::new(&problem);
+    let plan = ["plan", "case.toml", "--out", "a", "--quiet"];
+    assert_eq!(folder.run(&plan).code, 0);
+    let mut saved: Value = serde_json::from_str(&folder.read("a/solution.json")).unwrap();
+    let name = &mut saved["provenance"]["linear_solver"];
+    assert_eq!(*name, "multifrontal");
+
+    *name = "ours".into();
+    folder.write("a/solution.json", &saved.to_string());
+    for arguments in [
+        &["verify", "a/solution.json", "--out", "b"][..],
+        &["report", "a/solution.json"],
+    ] {
+        let run = folder.run(arguments);
+        assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    }
+    assert!(folder.read("a/report.html").contains("multifrontal"));
+}

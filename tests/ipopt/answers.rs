@@ -26,13 +26,21 @@ fn hs071_reaches_its_known_optimum() {
     assert!((5..20).contains(&statistics.iterations));
     assert!(statistics.primal_infeasibility < 1e-8 && statistics.dual_infeasibility < 1e-8);
     assert!(statistics.barrier < 1e-8);
+    let of = statistics.evaluations;
+    let evaluations = [
+        of.objective,
+        of.gradient,
+        of.constraints,
+        of.jacobian,
+        of.hessian,
+    ];
     assert!(
-        statistics
-            .evaluations
+        evaluations
             .iter()
             .all(|&count| count >= statistics.iterations)
     );
-    assert_eq!(statistics.evaluations.iter().sum::<u32>(), nlp.evaluations);
+    assert_eq!(evaluations.iter().sum::<u32>(), nlp.evaluations);
+    assert_eq!((statistics.solves, statistics.fallbacks), (1, 0));
     assert!(nlp.new_points > statistics.iterations && nlp.new_points < nlp.evaluations);
 }
 
@@ -115,10 +123,7 @@ fn an_undefined_start_is_an_invalid_number() {
 
 #[test]
 fn the_iteration_limit_is_a_status_with_an_iterate() {
-    let settings = Settings {
-        max_iterations: 3,
-        ..Settings::default()
-    };
+    let settings = with(|settings| settings.max_iterations = 3);
     let solution = run(&mut hs071(), &settings, &HS071_START).unwrap();
     assert_eq!(solution.status, Status::MaxIterations);
     assert_eq!(solution.statistics.iterations, 3);
@@ -129,10 +134,7 @@ fn the_iteration_limit_is_a_status_with_an_iterate() {
 fn a_warm_start_takes_fewer_iterations() {
     let cold = run(&mut hs071(), &Settings::default(), &HS071_START).unwrap();
     let again = run(&mut hs071(), &Settings::default(), &cold.iterate.x).unwrap();
-    let settings = Settings {
-        warm_start: Some(1e-8),
-        ..Settings::default()
-    };
+    let settings = with(|settings| settings.warm_start = Some(1e-8));
     let mut nlp = hs071();
     let warm = solve(&mut nlp, &settings, &cold.iterate, &mut |_| {
         Control::Continue

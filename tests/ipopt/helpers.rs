@@ -13,10 +13,14 @@ pub fn run(nlp: &mut impl Nlp, settings: &Settings, start: &[f64]) -> Result<Sol
 }
 
 pub fn with_option(name: &str, value: OptionValue) -> Settings {
-    Settings {
-        options: vec![(name.into(), value)],
-        ..Settings::default()
-    }
+    with(|settings| settings.options = vec![(name.into(), value)])
+}
+
+/// The default settings with a change.
+pub fn with(change: impl FnOnce(&mut Settings)) -> Settings {
+    let mut settings = Settings::default();
+    change(&mut settings);
+    settings
 }
 
 pub fn text(value: &str) -> OptionValue {

@@ -3,6 +3,7 @@
 #[path = "../allocations/mod.rs"]
 mod allocations;
 mod answers;
+mod fallback;
 mod helpers;
 mod misuse;
 mod options;

@@ -32,26 +32,17 @@ fn a_start_that_is_not_finite_is_refused_by_name() {
 
 #[test]
 fn a_warm_start_needs_multipliers_and_a_barrier_parameter() {
-    let settings = Settings {
-        warm_start: Some(1e-6),
-        ..Settings::default()
-    };
+    let settings = with(|settings| settings.warm_start = Some(1e-6));
     let error = run(&mut hs071(), &settings, &HS071_START).unwrap_err();
     assert_eq!(error, IpoptError::NoMultipliers);
-    let settings = Settings {
-        warm_start: Some(0.0),
-        ..Settings::default()
-    };
+    let settings = with(|settings| settings.warm_start = Some(0.0));
     let error = run(&mut hs071(), &settings, &HS071_START).unwrap_err();
     assert_eq!(error, IpoptError::Barrier(0.0));
     let mut start = run(&mut hs071(), &Settings::default(), &HS071_START)
         .unwrap()
         .iterate;
     start.multipliers[1] = f64::INFINITY;
-    let settings = Settings {
-        warm_start: Some(1e-6),
-        ..Settings::default()
-    };
+    let settings = with(|settings| settings.warm_start = Some(1e-6));
     let error = solve(&mut hs071(), &settings, &start, &mut |_| Control::Continue).unwrap_err();
     assert!(
         error.to_string().contains("multiplier of row 1 is inf"),

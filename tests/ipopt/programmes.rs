@@ -19,6 +19,9 @@ pub struct Dense {
     pub h: Lagrangian,
     /// Panics in the evaluation with this number, counted from 0.
     pub panic_at: Option<u32>,
+    /// The Hessian with this number, counted from 0, is not finite, and no error says so.
+    pub bad_hessian: Option<u32>,
+    pub hessians: u32,
     pub evaluations: u32,
     pub undefined: u32,
     pub new_points: u32,
@@ -36,6 +39,8 @@ impl Dense {
             dg: |_, _| {},
             h,
             panic_at: None,
+            bad_hessian: None,
+            hessians: 0,
             evaluations: 0,
             undefined: 0,
             new_points: 0,
@@ -138,7 +143,12 @@ impl Nlp for Dense {
         values: &mut [f64],
     ) -> Result<(), Undefined> {
         (self.h)(x, sigma, multipliers, values);
-        self.check(values)
+        self.check(values)?;
+        if self.bad_hessian == Some(self.hessians) {
+            values[0] = f64::NAN;
+        }
+        self.hessians += 1;
+        Ok(())
     }
 
     fn variable_name(&self, index: usize) -> String {

@@ -3,7 +3,7 @@
 use crate::helpers::*;
 use crate::programmes::*;
 use ffsm_ipopt::nlp::ipopt::{IpoptError, linear_solvers, solve, version};
-use ffsm_ipopt::nlp::{Control, Iterate, Settings, Status};
+use ffsm_ipopt::nlp::{Control, Iterate, LinearSolver, Settings, Status};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -70,10 +70,7 @@ fn nothing_is_printed_or_left_behind_unless_asked() {
     // Ipopt prints through C's own buffer; the end of a solve empties it.
     assert!(run(&mut hs071(), &settings, &HS071_START).is_ok());
     println!("<loud>");
-    let settings = Settings {
-        print_level: 5,
-        ..settings
-    };
+    let settings = with(|settings| settings.print_level = 5);
     assert!(run(&mut hs071(), &settings, &HS071_START).is_ok());
 }
 
@@ -96,10 +93,7 @@ fn two_threads_solve_at_once() {
 #[test]
 fn a_solve_inside_a_solve_is_refused() {
     let nested = |linear_solver: &str| {
-        let settings = Settings {
-            linear_solver: linear_solver.into(),
-            ..Settings::default()
-        };
+        let settings = with(|settings| settings.linear_solver = linear_solver.into());
         let start = Iterate::primal(HS071_START.to_vec());
         let mut inner = None;
         let outer = solve(&mut hs071(), &settings, &start, &mut |_| {
@@ -110,19 +104,18 @@ fn a_solve_inside_a_solve_is_refused() {
         inner.unwrap()
     };
     assert_eq!(nested("mumps"), Err(IpoptError::Nested("mumps".into())));
-    // Ours keeps no state outside the solve.
-    let inner = nested("ours");
+    // The multifrontal solver keeps no state outside the solve.
+    let inner = nested("multifrontal");
     assert_eq!(inner.unwrap().status, Status::Solved);
 }
 
 /// Four threads with problems of their own for `time`, against one thread.
 fn threads_agree(time: Duration) {
-    assert!(!ffsm_ipopt::nlp::ipopt::serialised("ours"));
+    assert!(!ffsm_ipopt::nlp::ipopt::serialised(
+        &LinearSolver::Multifrontal
+    ));
     let case = |kind: usize| {
-        let settings = Settings {
-            linear_solver: "ours".into(),
-            ..Settings::default()
-        };
+        let settings = with(|settings| settings.linear_solver = LinearSolver::Multifrontal);
         let solution = if kind == 0 {
             run(&mut hs071(), &settings, &HS071_START).unwrap()
         } else {
@@ -166,40 +159,39 @@ fn four_threads_find_what_one_finds_for_a_minute() {
 }
 
 #[test]
-fn ours_finds_what_mumps_finds() {
+fn the_multifrontal_solver_finds_what_mumps_finds() {
     for points in [2, 3, 50, 300] {
         let mut nlp = Chain {
             points,
             upper: false,
         };
-        let [ours, mumps] = ["ours", "mumps"].map(|name| {
-            let settings = Settings {
-                linear_solver: name.into(),
-                ..Settings::default()
-            };
+        let [multifrontal, mumps] = ["multifrontal", "mumps"].map(|name| {
+            let settings = with(|settings| settings.linear_solver = name.into());
             run(&mut nlp, &settings, &vec![0.9; points]).unwrap()
         });
         assert_eq!(
-            (ours.status, mumps.status),
+            (multifrontal.status, mumps.status),
             (Status::Solved, Status::Solved)
         );
-        assert_eq!(ours.statistics.fallbacks, 0);
-        assert!(ours.statistics.iterations <= mumps.statistics.iterations);
-        assert_near(&ours.iterate.x, &mumps.iterate.x, 1e-7);
+        assert_eq!(multifrontal.statistics.fallbacks, 0);
+        assert!(multifrontal.statistics.iterations <= mumps.statistics.iterations);
+        assert_near(&multifrontal.iterate.x, &mumps.iterate.x, 1e-7);
     }
 }
 
 #[test]
 fn the_linear_solvers_listed_are_those_that_solve() {
     let listed = linear_solvers();
-    assert!(listed.contains(&"mumps"), "{listed:?}");
-    for name in ["ours", "ma27", "ma97", "pardiso", "spral", "unheard-of"] {
-        let settings = Settings {
-            linear_solver: name.into(),
-            ..Settings::default()
-        };
+    assert!(listed.contains(&LinearSolver::Mumps), "{listed:?}");
+    for solver in ["ours", "ma27", "ma97", "pardiso", "spral", "unheard-of"].map(LinearSolver::from)
+    {
+        let settings = with(|settings| settings.linear_solver = solver.clone());
         let solved = run(&mut hs071(), &settings, &HS071_START);
-        assert_eq!(solved.is_ok(), listed.contains(&name), "{name}: {solved:?}");
+        assert_eq!(
+            solved.is_ok(),
+            listed.contains(&solver),
+            "{solver}: {solved:?}"
+        );
     }
 }
 

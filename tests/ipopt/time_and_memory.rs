@@ -21,10 +21,7 @@ fn the_parts_of_the_time_fit_into_the_whole() {
     assert!(statistics.derivatives > Duration::ZERO, "{statistics:?}");
     assert!(statistics.linear_solver + statistics.derivatives <= statistics.total);
 
-    let settings = Settings {
-        timing: false,
-        ..Settings::default()
-    };
+    let settings = with(|settings| settings.timing = false);
     let untimed = run(&mut nlp, &settings, &start).unwrap();
     assert_eq!(untimed.statistics.linear_solver, Duration::ZERO);
     assert_eq!(untimed.iterate, timed.iterate, "timing changes nothing");

@@ -1,8 +1,13 @@
 //! The functions Ipopt calls: from C to the [`Nlp`] and the monitor, and no panic back.
 
+#![expect(
+    unsafe_code,
+    reason = "functions that C calls with pointers, by Ipopt's interface"
+)]
+
 use super::interrupt;
 use super::structure::{Structure, Structures};
-use crate::nlp::{Control, Nlp, Progress, Undefined};
+use crate::nlp::{Control, Evaluations, Nlp, Progress, Undefined};
 use ipopt_sys::{self as ip, Bool, Index, Number, UserDataPtr};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -26,21 +31,14 @@ pub(super) struct Record {
     pub(super) panic: Option<Box<dyn Any + Send>>,
     /// The last iteration.
     pub(super) last: Option<Progress>,
-    /// Calls of objective, gradient, constraints, Jacobian and Hessian.
-    pub(super) evaluations: [u32; 5],
+    /// Calls of each function.
+    pub(super) evaluations: Evaluations,
     /// Time in those calls.
     pub(super) derivatives: Duration,
 }
 
-/// The evaluations, in the order they are counted in.
-#[derive(Clone, Copy)]
-enum Function {
-    Objective,
-    Gradient,
-    Constraints,
-    Jacobian,
-    Hessian,
-}
+/// The count of one function.
+type Counter = fn(&mut Evaluations) -> &mut u32;
 
 impl<'a, N: Nlp + ?Sized> Context<'a, N> {
     pub(super) fn new(
@@ -64,7 +62,7 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
     /// Runs one evaluation; false to Ipopt where the value is undefined, which shortens its step.
     fn evaluate(
         &mut self,
-        function: Function,
+        counter: Counter,
         new_point: Bool,
         body: impl FnOnce(&mut N) -> Result<(), Undefined>,
     ) -> Bool {
@@ -81,7 +79,7 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
             }
             body(nlp).is_ok()
         }));
-        self.record.evaluations[function as usize] += 1;
+        *counter(&mut self.record.evaluations) += 1;
         self.record.derivatives += begin.elapsed();
         self.answer(outcome)
     }
@@ -146,10 +144,14 @@ pub(super) unsafe extern "C" fn objective<N: Nlp + ?Sized>(
 ) -> Bool {
     // SAFETY: Ipopt passes its user data, x of length n and one value to write.
     let (context, x, value) = unsafe { (context::<N>(user_data), input(x, n), &mut *value) };
-    context.evaluate(Function::Objective, new_x, |nlp| {
-        *value = nlp.objective(x)?;
-        Ok(())
-    })
+    context.evaluate(
+        |of| &mut of.objective,
+        new_x,
+        |nlp| {
+            *value = nlp.objective(x)?;
+            Ok(())
+        },
+    )
 }
 
 pub(super) unsafe extern "C" fn gradient<N: Nlp + ?Sized>(
@@ -161,7 +163,7 @@ pub(super) unsafe extern "C" fn gradient<N: Nlp + ?Sized>(
 ) -> Bool {
     // SAFETY: Ipopt passes its user data, x and the gradient of length n.
     let (context, x, values) = unsafe { (context::<N>(user_data), input(x, n), output(values, n)) };
-    context.evaluate(Function::Gradient, new_x, |nlp| nlp.gradient(x, values))
+    context.evaluate(|of| &mut of.gradient, new_x, |nlp| nlp.gradient(x, values))
 }
 
 pub(super) unsafe extern "C" fn constraints<N: Nlp + ?Sized>(
@@ -174,9 +176,11 @@ pub(super) unsafe extern "C" fn constraints<N: Nlp + ?Sized>(
 ) -> Bool {
     // SAFETY: Ipopt passes its user data, x of length n and values of length m.
     let (context, x, values) = unsafe { (context::<N>(user_data), input(x, n), output(values, m)) };
-    context.evaluate(Function::Constraints, new_x, |nlp| {
-        nlp.constraints(x, values)
-    })
+    context.evaluate(
+        |of| &mut of.constraints,
+        new_x,
+        |nlp| nlp.constraints(x, values),
+    )
 }
 
 pub(super) unsafe extern "C" fn jacobian<N: Nlp + ?Sized>(
@@ -198,7 +202,7 @@ pub(super) unsafe extern "C" fn jacobian<N: Nlp + ?Sized>(
     }
     // SAFETY: with values, Ipopt passes x of length n and one value a nonzero.
     let (x, values) = unsafe { (input(x, n), output(values, nonzeros)) };
-    context.evaluate(Function::Jacobian, new_x, |nlp| nlp.jacobian(x, values))
+    context.evaluate(|of| &mut of.jacobian, new_x, |nlp| nlp.jacobian(x, values))
 }
 
 pub(super) unsafe extern "C" fn hessian<N: Nlp + ?Sized>(
@@ -225,9 +229,11 @@ pub(super) unsafe extern "C" fn hessian<N: Nlp + ?Sized>(
     // nonzero.
     let (x, multipliers, values) =
         unsafe { (input(x, n), input(multipliers, m), output(values, nonzeros)) };
-    context.evaluate(Function::Hessian, new_x, |nlp| {
-        nlp.hessian(x, sigma, multipliers, values)
-    })
+    context.evaluate(
+        |of| &mut of.hessian,
+        new_x,
+        |nlp| nlp.hessian(x, sigma, multipliers, values),
+    )
 }
 
 pub(super) unsafe extern "C" fn intermediate<N: Nlp + ?Sized>(

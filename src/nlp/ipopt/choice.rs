@@ -1,43 +1,43 @@
 //! Which linear solver a solve uses: what was asked for, and what can be had.
 
-use super::{IpoptError, ours};
-use crate::nlp::{OptionValue, Settings};
+use super::{IpoptError, ma97_bridge};
+use crate::nlp::{LinearSolver, OptionValue, Settings};
 use ipopt_sys::ma97::{self, Reached, Routines};
 use std::ffi::{CStr, CString};
-
-/// The names that mean our own linear solver: where it can be had, or MUMPS.
-const OURS: [&str; 2] = ["auto", "ours"];
-
-/// What stands in where ours cannot serve.
-pub(super) const FALLBACK: &str = "mumps";
 
 /// A linear solver that can be used.
 #[derive(Debug, Clone)]
 pub(super) struct Choice {
-    /// Its name, in lower case as Ipopt compares names: "ours", or Ipopt's.
-    pub name: String,
-    /// How Ipopt reaches ours; `None` for any other.
-    pub ours: Option<Reached>,
-    /// Routines of the real HSL_MA97, where that is asked for and ours is in its place.
-    pub real: Option<Routines>,
+    /// Which one; never [`LinearSolver::Auto`].
+    pub solver: LinearSolver,
+    /// How Ipopt reaches the multifrontal solver; `None` with any other.
+    pub bridge: Option<Reached>,
+    /// The routines of the real HSL_MA97 where that is asked for: the bridge, which Ipopt finds in
+    /// its place, passes all calls on to them.
+    pub hsl: Option<Routines>,
 }
 
 impl Choice {
     /// What Ipopt calls it.
     pub fn ipopt_name(&self) -> &str {
-        if self.ours.is_some() {
-            ours::STANDS_FOR
+        if self.bridge.is_some() {
+            LinearSolver::Ma97.name()
         } else {
-            &self.name
+            self.solver.name()
         }
     }
 
-    /// The stand-in for ours.
+    /// What stands in where the multifrontal solver cannot be had or fails.
     pub fn fallback() -> Self {
+        Self::by_ipopt(LinearSolver::Mumps)
+    }
+
+    /// A linear solver that Ipopt brings or loads by itself.
+    fn by_ipopt(solver: LinearSolver) -> Self {
         Self {
-            name: FALLBACK.into(),
-            ours: None,
-            real: None,
+            solver,
+            bridge: None,
+            hsl: None,
         }
     }
 
@@ -46,52 +46,51 @@ impl Choice {
     /// # Errors
     /// Where HSL_MA97 is asked for and not installed: Ipopt would not survive that.
     pub fn of(settings: &Settings) -> Result<Self, IpoptError> {
-        let name = asked(settings);
-        if OURS.contains(&name.as_str()) {
-            return Ok(match ours::register() {
+        Ok(match asked(settings) {
+            LinearSolver::Auto | LinearSolver::Multifrontal => match ma97_bridge::register() {
                 Ok(reached) => Self {
-                    name: "ours".into(),
-                    ours: Some(reached),
-                    real: None,
+                    solver: LinearSolver::Multifrontal,
+                    bridge: Some(reached),
+                    hsl: None,
                 },
                 Err(_) => Self::fallback(),
-            });
-        }
-        let mut choice = Self {
-            name,
-            ours: None,
-            real: None,
-        };
-        if choice.name == ours::STANDS_FOR {
-            let library = library(settings);
-            choice.real = Some(installed(library.as_deref())?);
-        }
-        Ok(choice)
+            },
+            LinearSolver::Ma97 => Self {
+                hsl: Some(installed(library(settings).as_deref())?),
+                ..Self::by_ipopt(LinearSolver::Ma97)
+            },
+            other => Self::by_ipopt(other),
+        })
     }
 }
 
-/// What a user should know where ours was asked for and cannot be had at all, in words.
-pub fn why_not_ours(settings: &Settings) -> Option<String> {
-    let why = ours::register().err()?;
+/// Why the multifrontal solver cannot be had although `settings` ask for it, in words; `None` where
+/// it can, or another is asked for.
+pub fn why_not_multifrontal(settings: &Settings) -> Option<String> {
     let asked = asked(settings);
-    OURS.contains(&asked.as_str()).then(|| {
-        format!(
-            "linear_solver = \"{asked}\": Ipopt {} cannot be given our linear solver ({why}); \
-             MUMPS is used in its place",
-            super::version()
-        )
-    })
+    if !matches!(asked, LinearSolver::Auto | LinearSolver::Multifrontal) {
+        return None;
+    }
+    let why = ma97_bridge::register().err()?;
+    Some(format!(
+        "linear_solver = \"{asked}\": Ipopt {} cannot be given the multifrontal linear solver \
+         ({why}); MUMPS is used in its place",
+        super::version()
+    ))
 }
 
-/// The linear solver that `settings` come to: "ours", or Ipopt's name of another.
-pub fn linear_solver(settings: &Settings) -> String {
-    Choice::of(settings).map_or_else(|_| asked(settings), |choice| choice.name)
+/// The linear solver that a solve with `settings` uses. Not [`LinearSolver::Auto`], but what that
+/// comes to on this machine.
+pub fn linear_solver(settings: &Settings) -> LinearSolver {
+    Choice::of(settings).map_or_else(|_| asked(settings), |choice| choice.solver)
 }
 
-fn asked(settings: &Settings) -> String {
-    text_option(settings, "linear_solver")
-        .unwrap_or(&settings.linear_solver)
-        .to_ascii_lowercase()
+/// What the settings ask for; an option by name counts more than the field.
+///
+/// A name is read again, so that `Other("ma97")` is HSL_MA97 too.
+fn asked(settings: &Settings) -> LinearSolver {
+    let name = text_option(settings, "linear_solver");
+    LinearSolver::from(name.unwrap_or(settings.linear_solver.name()))
 }
 
 /// The value of Ipopt's option `hsllib`, where it is given.
@@ -102,7 +101,7 @@ pub(super) fn library(settings: &Settings) -> Option<CString> {
 fn installed(library: Option<&CStr>) -> Result<Routines, IpoptError> {
     ma97::installed(library).ok_or_else(|| IpoptError::MissingLibrary {
         name: "linear_solver",
-        value: ours::STANDS_FOR.into(),
+        value: LinearSolver::Ma97.to_string(),
         library: library.map_or_else(
             || "the HSL library".into(),
             |name| name.to_string_lossy().into_owned(),

@@ -1,5 +1,7 @@
 //! Why a solve could not begin.
 
+use crate::nlp::LinearSolver;
+
 /// A solve could not begin. Each message says what was wrong and what to do about it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -26,7 +28,7 @@ pub enum IpoptError {
     )]
     OptionsRefused {
         /// The linear solver asked for.
-        linear_solver: String,
+        linear_solver: LinearSolver,
     },
 
     /// An option needs a library that this machine does not have.
@@ -142,5 +144,5 @@ pub enum IpoptError {
         "a solve with the linear solver {0} was begun inside a callback of another solve: it \
          cannot do two at a time; solve the inner programme before or after"
     )]
-    Nested(String),
+    Nested(LinearSolver),
 }

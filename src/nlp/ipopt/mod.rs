@@ -10,8 +10,8 @@ mod choice;
 mod error;
 mod input;
 pub mod interrupt;
+mod ma97_bridge;
 mod options;
-mod ours;
 mod probe;
 mod problem;
 mod serial;
@@ -19,16 +19,16 @@ mod status;
 mod structure;
 mod timing;
 
-pub use choice::{linear_solver, why_not_ours};
+pub use choice::{linear_solver, why_not_multifrontal};
 pub use error::IpoptError;
-pub use ours::{System, record};
+pub use ma97_bridge::{KktSystem, record};
 pub use probe::linear_solvers;
 pub use serial::serialised;
 
 use super::{Control, Iterate, Nlp, Progress, Settings, Size, Solution, Statistics, Status};
 use callbacks::Context;
 use choice::Choice;
-use ours::Session;
+use ma97_bridge::Session;
 use problem::Problem;
 use std::panic::resume_unwind;
 use std::time::Instant;
@@ -48,11 +48,11 @@ pub fn version() -> &'static str {
 /// Ipopt relaxes each bound b by 1e-8 max(1, |b|) (its option `bound_relax_factor`), and the result
 /// may lie that far outside.
 ///
-/// Where our own linear solver fails, the solve is begun again with MUMPS, and
-/// [`Statistics::fallbacks`] says so.
+/// Where the multifrontal linear solver fails, the solve is begun again from the start with MUMPS.
+/// [`Statistics::fallbacks`] is then 1; counts and times are those of both attempts together.
 ///
-/// The time of [`Statistics::linear_solver`] is measured where the solver is our own; otherwise it
-/// is a sum of Ipopt's figures, which have a resolution of 1 ms. [`Statistics::total`] does not
+/// The time of [`Statistics::linear_solver`] is measured where the solver is the multifrontal one;
+/// otherwise it is a sum of Ipopt's figures, which have a resolution of 1 ms. [`Statistics::total`] does not
 /// contain the wait for another thread's solve.
 ///
 /// # Errors
@@ -80,19 +80,19 @@ pub fn solve<N: Nlp + ?Sized>(
         bounds,
         structure,
     };
-    let (solution, failure) = attempt.run(&choice, monitor)?;
-    let hopeless =
-        failure.is_none() || solution.status.is_solved() || solution.status == Status::Interrupted;
-    if hopeless {
-        return Ok(solution);
+    let (first, failed) = attempt.run(&choice, monitor)?;
+    if !failed || first.status.is_solved() || first.status == Status::Interrupted {
+        return Ok(first);
     }
-    // Our linear solver could not serve: once more from the start, by what stands in.
-    let (mut second, _) = attempt.run(&Choice::fallback(), monitor)?;
-    second.statistics.derivatives += solution.statistics.derivatives;
-    second.statistics.linear_solver += solution.statistics.linear_solver;
-    second.statistics.total += solution.statistics.total;
-    second.statistics.fallbacks = 1;
-    Ok(second)
+    let (second, _) = attempt.run(&Choice::fallback(), monitor)?;
+    let mut statistics = first.statistics;
+    statistics.add(&second.statistics);
+    // Two attempts at one solve.
+    (statistics.solves, statistics.fallbacks) = (1, 1);
+    Ok(Solution {
+        statistics,
+        ..second
+    })
 }
 
 /// What the attempts at one solve share.
@@ -106,19 +106,19 @@ struct Attempt<'a, N: Nlp + ?Sized> {
 }
 
 impl<N: Nlp + ?Sized> Attempt<'_, N> {
-    /// One attempt, and why our linear solver could not serve where it could not.
+    /// One attempt, and whether the multifrontal solver failed in it.
     fn run(
         &mut self,
         choice: &Choice,
         monitor: &mut dyn FnMut(&Progress) -> Control,
-    ) -> Result<(Solution, Option<String>), IpoptError> {
-        let turn = serial::turn(&choice.name)?;
+    ) -> Result<(Solution, bool), IpoptError> {
+        let permit = serial::permit(&choice.solver)?;
         let begin = Instant::now();
-        let session = Session::begin(choice.real);
+        let session = Session::begin(choice.hsl);
         let mut problem = Problem::create(self.size, &mut self.bounds)?;
         options::apply(&mut problem, self.settings, choice)?;
-        let ours = choice.ours.is_some();
-        let timing = if self.settings.timing && !ours {
+        let bridged = choice.bridge.is_some();
+        let timing = if self.settings.timing && !bridged {
             TimingFile::attach(&mut problem)
         } else {
             None
@@ -134,29 +134,27 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
         // Ipopt closes the timing file and frees the linear solver only with the problem.
         drop(problem);
         let counted = session.end();
-        let linear_time = if ours && self.settings.timing {
+        let linear_time = if bridged && self.settings.timing {
             counted.time
         } else {
             timing.and_then(TimingFile::read).unwrap_or_default()
         };
         let total = begin.elapsed();
-        drop(turn);
+        drop(permit);
 
         if let Some(payload) = record.panic {
             resume_unwind(payload);
         }
-        let status = status::grade(code, &choice.name)?;
+        let status = status::grade(code, &choice.solver)?;
         let last = record.last;
-        let failure = counted.failure.or_else(|| {
-            (ours && code == ipopt_sys::Error_In_Step_Computation)
-                .then(|| "no step could be computed with it".into())
-        });
+        let failed = counted.failed || (bridged && code == ipopt_sys::Error_In_Step_Computation);
         let solution = Solution {
             status,
             objective,
             iterate,
             constraints,
             statistics: Statistics {
+                solves: 1,
                 iterations: last.map_or(0, |last| last.iteration),
                 barrier: last.map_or(f64::NAN, |last| last.barrier),
                 primal_infeasibility: last.map_or(f64::NAN, |last| last.primal_infeasibility),
@@ -169,6 +167,6 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
                 total,
             },
         };
-        Ok((solution, failure))
+        Ok((solution, failed))
     }
 }

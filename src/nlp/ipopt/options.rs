@@ -3,7 +3,7 @@
 use super::IpoptError;
 use super::choice::{Choice, library, text_option};
 use super::problem::Problem;
-use crate::nlp::{Nlp, OptionValue, Settings};
+use crate::nlp::{LinearSolver, Nlp, OptionValue, Settings};
 use ipopt_sys::hsl;
 use ipopt_sys::ma97::Reached;
 use std::ffi::CString;
@@ -41,7 +41,7 @@ pub(super) fn apply<N: Nlp + ?Sized>(
 
     let mut set = |name: &str, value: OptionValue| set_option(problem, name, &value);
     set("print_level", integer(settings.print_level.into()))?;
-    if settings.timing && choice.ours.is_none() {
+    if settings.timing && choice.bridge.is_none() {
         set("print_timing_statistics", text("yes"))?;
     }
     set("tol", OptionValue::Real(settings.tolerance))?;
@@ -53,11 +53,11 @@ pub(super) fn apply<N: Nlp + ?Sized>(
     // Ipopt relaxes bounds by 1e-8. Moving the result back inside them, the default of 3.11, would
     // leave equality constraints violated by more than the tolerance.
     set("honor_original_bounds", text("no"))?;
-    if choice.name == "mumps" {
+    if choice.solver == LinearSolver::Mumps {
         // With its own choice of ordering MUMPS reports wrong inertia, and Ipopt regularises.
         set("mumps_pivot_order", integer(0))?;
     }
-    if choice.ours.is_some() {
+    if choice.bridge.is_some() {
         // One analysis, of the pattern alone.
         set("ma97_order", text("amd"))?;
         set("ma97_scaling", text("none"))?;
@@ -73,13 +73,13 @@ pub(super) fn apply<N: Nlp + ?Sized>(
         set("warm_start_mult_bound_push", OptionValue::Real(least))?;
     }
     for (name, value) in &settings.options {
-        // Ipopt does not know our names; the choice has been made above.
+        // The linear solver is chosen above, and may have a name that Ipopt does not know.
         if !name.eq_ignore_ascii_case("linear_solver") {
             set(name, value.clone())?;
         }
     }
-    if let Some(Reached::Library(library)) = &choice.ours {
-        // The last word on this one: there is nothing else it could mean.
+    if let Some(Reached::Library(library)) = &choice.bridge {
+        // Set last: the library must be the one that holds the bridge.
         set("hsllib", text(&library.to_string_lossy()))?;
     }
     Ok(())

@@ -1,42 +1,27 @@
 //! Which linear solvers this machine's Ipopt can use.
 
 use super::{linear_solver, solve};
-use crate::nlp::{Control, Iterate, Nlp, Settings, Size, Status, Undefined};
+use crate::nlp::{Control, Iterate, LinearSolver, Nlp, Settings, Size, Status, Undefined};
 
-/// Ours, and every linear solver some Ipopt from 3.11 to 3.14 knows by name.
-const CANDIDATES: [&str; 11] = [
-    "ours",
-    "mumps",
-    "ma27",
-    "ma57",
-    "ma77",
-    "ma86",
-    "ma97",
-    "pardiso",
-    "pardisomkl",
-    "spral",
-    "wsmp",
-];
-
-/// The linear solvers that solve a tiny programme here: "ours", and others by Ipopt's names.
+/// The linear solvers of [`LinearSolver::KNOWN`] that solve a tiny programme here.
 ///
 /// Ipopt takes the name of any solver it was built to load later, so that only a solve tells.
 /// This loads the libraries it finds, takes some milliseconds a solver, and prints nothing of
 /// its own.
-pub fn linear_solvers() -> Vec<&'static str> {
-    CANDIDATES.into_iter().filter(|name| works(name)).collect()
+pub fn linear_solvers() -> Vec<LinearSolver> {
+    LinearSolver::KNOWN.into_iter().filter(works).collect()
 }
 
-fn works(name: &str) -> bool {
+fn works(solver: &LinearSolver) -> bool {
     let settings = Settings {
-        linear_solver: name.into(),
+        linear_solver: solver.clone(),
         timing: false,
         ..Settings::default()
     };
     let start = Iterate::primal(vec![0.0, 0.0]);
     solve(&mut Tiny, &settings, &start, &mut |_| Control::Continue).is_ok_and(|solution| {
         let served = solution.statistics.fallbacks == 0;
-        solution.status == Status::Solved && served && linear_solver(&settings) == name
+        solution.status == Status::Solved && served && linear_solver(&settings) == *solver
     })
 }
 

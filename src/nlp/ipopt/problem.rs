@@ -1,5 +1,7 @@
 //! One Ipopt problem: created, given options, solved, and freed with the handle.
 
+#![expect(unsafe_code, reason = "calls of Ipopt's C interface")]
+
 use super::IpoptError;
 use super::callbacks::{self, Context};
 use super::input::Bounds;

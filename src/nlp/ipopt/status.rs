@@ -1,16 +1,16 @@
 //! From Ipopt's return status to a graded one.
 
 use super::IpoptError;
-use crate::nlp::Status;
+use crate::nlp::{LinearSolver, Status};
 use ipopt_sys as ip;
 
 /// Ipopt 3.14 and later; the headers of 3.11 do not name it.
 const MAXIMUM_WALL_TIME_EXCEEDED: ip::ApplicationReturnStatus = -5;
 
-/// The grade of Ipopt's `code`.
+/// The graded status of Ipopt's `code`.
 pub(super) fn grade(
     code: ip::ApplicationReturnStatus,
-    linear_solver: &str,
+    linear_solver: &LinearSolver,
 ) -> Result<Status, IpoptError> {
     Ok(match code {
         ip::Solve_Succeeded => Status::Solved,
@@ -27,7 +27,7 @@ pub(super) fn grade(
         ip::Not_Enough_Degrees_Of_Freedom => Status::TooFewDegreesOfFreedom,
         ip::Invalid_Option => {
             return Err(IpoptError::OptionsRefused {
-                linear_solver: linear_solver.to_owned(),
+                linear_solver: linear_solver.clone(),
             });
         }
         other => Status::Internal(other),

@@ -244,7 +244,7 @@ fn assemble<Sp: Space>(
 
 /// The linear solver behind a plan.
 fn linear_solver(settings: &nlp::Settings, statistics: &nlp::Statistics) -> String {
-    let mut name = ipopt::linear_solver(settings);
+    let mut name = ipopt::linear_solver(settings).to_string();
     if statistics.fallbacks > 0 {
         name.push_str(", mumps");
     }

@@ -13,8 +13,8 @@ pub(super) fn warnings(
 ) -> Vec<String> {
     let found = [
         near_singularity(trajectory),
-        ipopt::why_not_ours(solver),
-        fallback(&outcome.statistics),
+        ipopt::why_not_multifrontal(solver),
+        outcome.statistics.fallback_warning(),
         discarded(outcome),
     ];
     found.into_iter().flatten().collect()
@@ -28,16 +28,6 @@ fn discarded(outcome: &Outcome) -> Option<String> {
         format!(
             "{count} finer {meshes}, tried for the sake of limits between the points, did not \
              converge; this is the plan before, the time is that of all"
-        )
-    })
-}
-
-/// A word where MUMPS had to stand in for our own linear solver.
-fn fallback(statistics: &nlp::Statistics) -> Option<String> {
-    (statistics.fallbacks > 0).then(|| {
-        format!(
-            "our linear solver could not serve {} of the solves; MUMPS took them over",
-            statistics.fallbacks
         )
     })
 }

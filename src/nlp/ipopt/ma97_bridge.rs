@@ -1,8 +1,13 @@
-//! Our linear solver as Ipopt calls it: through the interface of HSL_MA97.
+//! The bridge from Ipopt to the multifrontal solver: it serves the calls that Ipopt makes to HSL_MA97.
 //!
-//! The handles Ipopt keeps are our own boxes, so that there is no state outside them but what
-//! this thread counts. Nothing here unwinds into C: a panic is kept, and Ipopt told that the
+//! The handles that Ipopt keeps are boxes of this file. There is no state outside them but what each
+//! thread counts of its solve. No panic crosses C: it is caught, and Ipopt is told that the
 //! factorisation failed.
+
+#![expect(
+    unsafe_code,
+    reason = "functions that C calls with pointers, by the interface of HSL_MA97"
+)]
 
 use crate::nlp::kkt::{Factors, Inertia, Pattern, Symbolic};
 use ipopt_sys::ma97::{self, Control, Info, Reached, Routines};
@@ -13,23 +18,20 @@ use std::slice::{from_raw_parts, from_raw_parts_mut};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Ipopt's name of the interface we stand behind.
-pub(super) const STANDS_FOR: &str = "ma97";
-
 /// Flag of a singular matrix.
 const SINGULAR: c_int = 7;
 /// Flag of any failure.
 const FAILED: c_int = -1;
 
-/// Analyses kept for the next programme of the same structure, each thread its own.
+/// Analyses that a thread keeps for the next programme with the same structure.
 const KEPT: usize = 4;
-/// No analysis with larger factors is kept, numbers.
+/// An analysis whose factors have more numbers than this is not kept.
 const LARGEST_KEPT: usize = 1 << 20;
 
-/// Makes our solver what Ipopt finds; says how.
+/// Registers these functions as HSL_MA97; returns how Ipopt reaches them.
 ///
 /// # Errors
-/// In words, where this Ipopt cannot be made to find it.
+/// In words, why this Ipopt cannot reach them.
 pub(super) fn register() -> Result<Reached, String> {
     ma97::register(&Routines {
         default_control,
@@ -42,57 +44,58 @@ pub(super) fn register() -> Result<Reached, String> {
     })
 }
 
-/// What this thread's solver did in one solve.
+/// What the calls of one solve come to.
 #[derive(Debug, Default)]
 pub(super) struct Count {
     /// Time in analyses, factorisations and solutions.
     pub time: Duration,
-    /// Why it could not serve.
-    pub failure: Option<String>,
-    /// Where the real HSL_MA97 was asked for: its routines, which all calls go to.
-    real: Option<Routines>,
+    /// Whether a call has failed.
+    pub failed: bool,
+    /// The routines of the real HSL_MA97, where all calls go to them.
+    hsl: Option<Routines>,
 }
 
-/// One factorisation as Ipopt asked for it, with the right-hand sides solved for.
+/// A KKT system: one factorisation that Ipopt asked for, with the right-hand sides.
 #[derive(Debug, Clone)]
-pub struct System {
+#[non_exhaustive]
+pub struct KktSystem {
     /// The analysis in use.
     pub symbolic: Arc<Symbolic>,
     /// Values of the pattern's entries.
     pub values: Vec<f64>,
-    /// Least part of its column's largest entry that a pivot was to be.
+    /// Pivot threshold.
     pub threshold: f64,
-    /// What the factorisation found.
+    /// The inertia found.
     pub inertia: Inertia,
-    /// Right-hand sides, in order.
+    /// Right-hand sides, in the order of the solutions.
     pub right_hand_sides: Vec<Vec<f64>>,
 }
 
 thread_local! {
     static COUNT: RefCell<Count> = RefCell::default();
     static ANALYSES: RefCell<Vec<Analysis>> = const { RefCell::new(Vec::new()) };
-    static RECORD: RefCell<Option<Vec<System>>> = const { RefCell::new(None) };
+    static RECORD: RefCell<Option<Vec<KktSystem>>> = const { RefCell::new(None) };
 }
 
-/// Runs `body` and returns the systems our solver was given in it on this thread.
+/// Runs `body` and returns the systems that the multifrontal solver was given in it, on this thread.
 ///
 /// For benchmarks and tests: it costs a copy of every matrix.
-pub fn record<T>(body: impl FnOnce() -> T) -> (T, Vec<System>) {
+pub fn record<T>(body: impl FnOnce() -> T) -> (T, Vec<KktSystem>) {
     RECORD.set(Some(Vec::new()));
     let result = body();
     (result, RECORD.take().unwrap_or_default())
 }
 
-/// The stretch of this thread's work that belongs to one solve.
+/// One solve on this thread: its calls are counted from `begin` to `end`.
 pub(super) struct Session {
-    /// That of the solve this one is nested in.
+    /// The count of the solve that this one is nested in.
     outer: Option<Count>,
 }
 
 impl Session {
-    pub(super) fn begin(real: Option<Routines>) -> Self {
+    pub(super) fn begin(hsl: Option<Routines>) -> Self {
         let count = Count {
-            real,
+            hsl,
             ..Count::default()
         };
         Self {
@@ -113,14 +116,14 @@ impl Drop for Session {
     }
 }
 
-/// An analysis with the memory that belongs to it.
+/// An analysis, and the factors of the last matrix with its pattern.
 struct Analysis {
     symbolic: Arc<Symbolic>,
     factors: Factors,
 }
 
 impl Analysis {
-    /// One kept by this thread, or a new one.
+    /// The analysis of `pattern`: one that this thread has kept, or a new one.
     fn of(pattern: Pattern) -> Self {
         let kept = ANALYSES.with_borrow_mut(|kept| {
             let known = kept
@@ -137,12 +140,12 @@ impl Analysis {
         })
     }
 
-    /// Kept for the next one of this pattern, if it is not large.
+    /// Keeps this analysis for the next solve with its pattern, unless it is large.
     fn keep(self) {
         if self.symbolic.factor_size() > LARGEST_KEPT {
             return;
         }
-        // A thread that ends has nothing to keep any more.
+        // This fails while the thread ends, and then nothing is kept.
         let _ = ANALYSES.try_with(|kept| {
             let mut kept = kept.borrow_mut();
             if kept.len() == KEPT {
@@ -153,33 +156,32 @@ impl Analysis {
     }
 }
 
-/// What a call is to do: the real HSL's work, or ours with the time counted and panics kept.
-fn guarded(info: *mut Info, body: impl FnOnce() -> Outcome) {
+/// A call that cannot be served.
+struct Failed;
+
+/// Does one call's work: counts its time, catches panics, and writes `info`.
+///
+/// # Safety
+/// `info` is valid for writing.
+unsafe fn serve(info: *mut Info, body: impl FnOnce() -> Result<Info, Failed>) {
     let begin = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(body));
-    let mut filled = empty();
+    let found = outcome.ok().and_then(Result::ok);
     COUNT.with_borrow_mut(|count| {
         count.time += begin.elapsed();
-        match outcome {
-            Ok(Ok(found)) => filled = found,
-            Ok(Err(failure)) => {
-                filled.flag = FAILED;
-                count.failure.get_or_insert(failure);
-            }
-            Err(_) => {
-                filled.flag = FAILED;
-                count.failure.get_or_insert_with(|| "a defect in it".into());
-            }
-        }
+        count.failed |= found.is_none();
     });
-    // SAFETY: Ipopt passes a valid place for what is found.
-    unsafe { *info = filled };
+    let found = found.unwrap_or_else(|| Info {
+        flag: FAILED,
+        ..empty()
+    });
+    // SAFETY: the caller's promise.
+    unsafe { *info = found };
 }
 
-type Outcome = Result<Info, String>;
-
-fn real() -> Option<Routines> {
-    COUNT.with_borrow(|count| count.real)
+/// The routines of the real HSL_MA97, where this solve is to use them.
+fn hsl() -> Option<Routines> {
+    COUNT.with_borrow(|count| count.hsl)
 }
 
 fn empty() -> Info {
@@ -207,9 +209,9 @@ fn empty() -> Info {
 }
 
 unsafe extern "C" fn default_control(control: *mut Control) {
-    if let Some(real) = real() {
-        // SAFETY: the caller's promise to us is the one to it.
-        return unsafe { (real.default_control)(control) };
+    if let Some(hsl) = hsl() {
+        // SAFETY: what the caller promises is what HSL_MA97 asks for.
+        return unsafe { (hsl.default_control)(control) };
     }
     let defaults = Control {
         f_arrays: 0,
@@ -247,11 +249,11 @@ unsafe extern "C" fn analyse(
     info: *mut Info,
     order: *mut c_int,
 ) {
-    if let Some(real) = real() {
-        // SAFETY: the caller's promise to us is the one to it.
-        return unsafe { (real.analyse)(check, n, ptr, row, val, akeep, control, info, order) };
+    if let Some(hsl) = hsl() {
+        // SAFETY: what the caller promises is what HSL_MA97 asks for.
+        return unsafe { (hsl.analyse)(check, n, ptr, row, val, akeep, control, info, order) };
     }
-    guarded(info, || {
+    let body = || {
         // SAFETY: Ipopt passes n + 1 starts and as many rows as the last of them says, a valid
         // control, and a place for the handle.
         let (starts, rows, akeep, control) = unsafe {
@@ -268,7 +270,7 @@ unsafe extern "C" fn analyse(
         };
         let base = c_int::from(control.f_arrays != 0);
         let convert = |list: &[c_int]| list.iter().map(|&i| (i - base) as u32).collect();
-        let pattern = Pattern::new(convert(starts), convert(rows)).map_err(|e| e.to_string())?;
+        let pattern = Pattern::new(convert(starts), convert(rows)).map_err(|_| Failed)?;
         let analysis = Analysis::of(pattern);
         let mut info = empty();
         info.num_factor = analysis.symbolic.factor_size() as _;
@@ -276,7 +278,9 @@ unsafe extern "C" fn analyse(
         info.num_sup = analysis.symbolic.fronts() as c_int;
         *akeep = Box::into_raw(Box::new(analysis)).cast();
         Ok(info)
-    });
+    };
+    // SAFETY: Ipopt passes a valid place for what is found.
+    unsafe { serve(info, body) };
 }
 
 /// The analysis behind a handle, with its memory.
@@ -284,17 +288,17 @@ unsafe extern "C" fn analyse(
 /// # Safety
 /// `akeep` points to a handle that `analyse` made and `finalise` has not freed, or to null; no
 /// other reference to it is in use.
-unsafe fn analysis<'a>(akeep: *mut *mut c_void) -> Result<&'a mut Analysis, String> {
+unsafe fn analysis<'a>(akeep: *mut *mut c_void) -> Result<&'a mut Analysis, Failed> {
     // SAFETY: the caller's promise.
-    unsafe { (*akeep).cast::<Analysis>().as_mut() }.ok_or_else(|| "there is no analysis".into())
+    unsafe { (*akeep).cast::<Analysis>().as_mut() }.ok_or(Failed)
 }
 
 /// Factorises the matrix with these values.
-fn factorise(analysis: &mut Analysis, values: &[f64], control: &Control) -> Outcome {
+fn factorise(analysis: &mut Analysis, values: &[f64], control: &Control) -> Result<Info, Failed> {
     let Analysis { symbolic, factors } = analysis;
     let inertia = factors
         .factor(symbolic, values, control.u)
-        .map_err(|error| error.to_string())?;
+        .map_err(|_| Failed)?;
     let mut info = empty();
     info.num_neg = inertia.negative as c_int;
     info.num_two = inertia.two_by_two as c_int;
@@ -306,7 +310,7 @@ fn factorise(analysis: &mut Analysis, values: &[f64], control: &Control) -> Outc
     }
     RECORD.with_borrow_mut(|record| {
         if let Some(record) = record {
-            record.push(System {
+            record.push(KktSystem {
                 symbolic: symbolic.clone(),
                 values: values.to_vec(),
                 threshold: control.u,
@@ -329,10 +333,10 @@ unsafe extern "C" fn factor(
     info: *mut Info,
     scale: *const c_double,
 ) {
-    if let Some(real) = real() {
-        // SAFETY: the caller's promise to us is the one to it.
+    if let Some(hsl) = hsl() {
+        // SAFETY: what the caller promises is what HSL_MA97 asks for.
         return unsafe {
-            (real.factor)(
+            (hsl.factor)(
                 matrix_type,
                 ptr,
                 row,
@@ -345,7 +349,7 @@ unsafe extern "C" fn factor(
             )
         };
     }
-    guarded(info, || {
+    let body = || {
         // SAFETY: Ipopt passes the handle of its analysis, one value an entry of the pattern
         // analysed, and a valid control.
         let (analysis, control) = unsafe { (analysis(akeep)?, &*control) };
@@ -357,7 +361,9 @@ unsafe extern "C" fn factor(
             unsafe { from_raw_parts(val, count) }
         };
         factorise(analysis, values, control)
-    });
+    };
+    // SAFETY: Ipopt passes a valid place for what is found.
+    unsafe { serve(info, body) };
 }
 
 unsafe extern "C" fn factor_solve(
@@ -374,10 +380,10 @@ unsafe extern "C" fn factor_solve(
     info: *mut Info,
     scale: *const c_double,
 ) {
-    if let Some(real) = real() {
-        // SAFETY: the caller's promise to us is the one to it.
+    if let Some(hsl) = hsl() {
+        // SAFETY: what the caller promises is what HSL_MA97 asks for.
         return unsafe {
-            (real.factor_solve)(
+            (hsl.factor_solve)(
                 matrix_type,
                 ptr,
                 row,
@@ -426,11 +432,11 @@ unsafe extern "C" fn solve(
     control: *const Control,
     info: *mut Info,
 ) {
-    if let Some(real) = real() {
-        // SAFETY: the caller's promise to us is the one to it.
-        return unsafe { (real.solve)(job, nrhs, x, ldx, akeep, fkeep, control, info) };
+    if let Some(hsl) = hsl() {
+        // SAFETY: what the caller promises is what HSL_MA97 asks for.
+        return unsafe { (hsl.solve)(job, nrhs, x, ldx, akeep, fkeep, control, info) };
     }
-    guarded(info, || {
+    let body = || {
         // SAFETY: Ipopt passes the handle of its analysis.
         let Analysis { symbolic, factors } = unsafe { analysis(akeep)? };
         for right in 0..nrhs as usize {
@@ -444,24 +450,26 @@ unsafe extern "C" fn solve(
             factors.solve(symbolic, x);
         }
         Ok(empty())
-    });
+    };
+    // SAFETY: Ipopt passes a valid place for what is found.
+    unsafe { serve(info, body) };
 }
 
 unsafe extern "C" fn finalise(akeep: *mut *mut c_void, fkeep: *mut *mut c_void) {
-    if let Some(real) = real() {
-        // SAFETY: the caller's promise to us is the one to it.
-        return unsafe { (real.finalise)(akeep, fkeep) };
+    if let Some(hsl) = hsl() {
+        // SAFETY: what the caller promises is what HSL_MA97 asks for.
+        return unsafe { (hsl.finalise)(akeep, fkeep) };
     }
     // SAFETY: Ipopt passes the place of the handle.
     unsafe { free_akeep(akeep) };
 }
 
 unsafe extern "C" fn free_akeep(akeep: *mut *mut c_void) {
-    if let Some(real) = real() {
-        // SAFETY: the caller's promise to us is the one to it.
-        return unsafe { (real.free_akeep)(akeep) };
+    if let Some(hsl) = hsl() {
+        // SAFETY: what the caller promises is what HSL_MA97 asks for.
+        return unsafe { (hsl.free_akeep)(akeep) };
     }
-    // SAFETY: a handle of ours that is not null came from `Box::into_raw`, and is freed once:
+    // SAFETY: a handle that is not null came from `Box::into_raw`, and is freed once:
     // null takes its place.
     let handle = unsafe { std::mem::replace(&mut *akeep, std::ptr::null_mut()) };
     if !handle.is_null() {
