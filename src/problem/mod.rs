@@ -2,13 +2,17 @@
 
 mod goal;
 mod keep_out;
+mod limit_id;
 mod momentum;
+mod unit;
 mod validation;
 mod way_point;
 
 pub use goal::{EndEffectorGoal, GoalFrame};
 pub use keep_out::{KeepOut, Obstacle, Sphere};
+pub use limit_id::LimitId;
 pub use momentum::Momentum;
+pub use unit::Unit;
 pub use way_point::{Moment, WayPoint};
 
 use validation::{count, error, indexed};

@@ -1,0 +1,85 @@
+//! The name of a limit or requirement of a problem.
+
+use std::borrow::Cow;
+use std::fmt;
+
+/// A limit or requirement of a problem, by the key that it stands under in the problem file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum LimitId {
+    /// Joint positions, eq. (8).
+    JointPosition,
+    /// Joint rates, eq. (9).
+    JointVelocity,
+    /// Controls u = H⁻¹τ, eq. (11).
+    Control,
+    /// Joint torques.
+    Torque,
+    /// Base attitude along the path, eq. (10).
+    BaseAttitude,
+    /// Rates of the base attitude, eq. (10).
+    BaseRate,
+    /// Base attitude at t_f.
+    FinalBaseAttitude,
+    /// Pairs of bodies that are kept apart.
+    KeepOut,
+    /// Joint positions at t_f, eq. (13).
+    FinalJoints,
+    /// The goal of the end effector at t_f.
+    EndEffector,
+    /// The way-point of that index.
+    WayPoint(usize),
+}
+
+impl LimitId {
+    /// The key in the problem file (`limits.joint_position`, `task.way_points[0]`).
+    pub fn key(self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
+            Self::JointPosition => "limits.joint_position",
+            Self::JointVelocity => "limits.joint_velocity",
+            Self::Control => "limits.control",
+            Self::Torque => "limits.torque",
+            Self::BaseAttitude => "limits.base_attitude",
+            Self::BaseRate => "limits.base_rate",
+            Self::FinalBaseAttitude => "limits.final_base_attitude",
+            Self::KeepOut => "limits.keep_out",
+            Self::FinalJoints => "task.final.joints",
+            Self::EndEffector => "task.final.end_effector",
+            Self::WayPoint(index) => return Cow::Owned(format!("task.way_points[{index}]")),
+        })
+    }
+
+    /// Whether it limits the motion of the base: a requirement of the mission, where limits of the
+    /// joints are properties of the hardware.
+    pub fn is_on_base(self) -> bool {
+        matches!(
+            self,
+            Self::BaseAttitude | Self::BaseRate | Self::FinalBaseAttitude
+        )
+    }
+}
+
+impl fmt::Display for LimitId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.key())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LimitId;
+
+    #[test]
+    fn keys_are_those_of_the_problem_file() {
+        assert_eq!(LimitId::JointPosition.key(), "limits.joint_position");
+        assert_eq!(LimitId::FinalJoints.key(), "task.final.joints");
+        assert_eq!(LimitId::WayPoint(2).to_string(), "task.way_points[2]");
+    }
+
+    #[test]
+    fn only_limits_of_the_base_are_on_it() {
+        assert!(LimitId::FinalBaseAttitude.is_on_base());
+        assert!(!LimitId::KeepOut.is_on_base());
+        assert!(!LimitId::EndEffector.is_on_base());
+    }
+}
