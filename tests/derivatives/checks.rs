@@ -209,7 +209,6 @@ pub fn close(found: f64, expected: f64, scale: f64, what: &str) {
 }
 
 pub fn check_problem(problem: &Problem, mesh: Mesh) {
-    problem.validate().unwrap();
     match FreeFloating::planar(problem) {
         Some(planar) => check(&planar, mesh),
         None => check(&FreeFloating::spatial(problem), mesh),

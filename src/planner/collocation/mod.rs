@@ -70,7 +70,6 @@ impl Planner {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Plan, PlanError> {
         let began = Instant::now();
-        problem.validate()?;
         match FreeFloating::planar(problem) {
             Some(planar) => self.run(problem, &planar, start, monitor, began),
             None => self.run(

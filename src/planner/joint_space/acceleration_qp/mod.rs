@@ -60,10 +60,11 @@ pub(in crate::planner) fn plan(
         Some(planar) => run([(problem, &planar); 2], monitor, began),
         None => {
             // References are for angles, whatever the plan is to be written in.
-            let mut by_angles = problem.clone();
-            if !problem.attitude.is_angles() {
-                by_angles.set_attitude(SpatialAttitude::RollPitchYaw);
-            }
+            let by_angles = problem.edited(|by_angles| {
+                if !by_angles.attitude.is_angles() {
+                    by_angles.set_attitude(SpatialAttitude::RollPitchYaw);
+                }
+            })?;
             let steered = FreeFloating::spatial(&by_angles);
             let system = FreeFloating::spatial(problem);
             let posed = [(&by_angles, &steered), (problem, &system)];
