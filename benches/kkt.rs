@@ -272,10 +272,14 @@ fn main() {
         ("two-link", shipped("table1-relaxed"), [200, 4]),
         ("chaser", shipped("chaser-7dof"), [10, 5]),
     ];
-    for (robot, mut problem, [segments, points]) in cases {
-        problem.mesh.segments = segments;
-        problem.mesh.points = points;
-        problem.mesh.max_iterations = 1;
+    for (robot, problem, [segments, points]) in cases {
+        let problem = problem
+            .edited(|problem| {
+                problem.mesh.segments = segments;
+                problem.mesh.points = points;
+                problem.mesh.max_iterations = 1;
+            })
+            .expect("a valid problem");
         let (plan, systems) = record(|| Planner::new().plan(&problem));
         plan.expect("a plan");
         let systems = shifted(&systems);

@@ -20,9 +20,10 @@ fn derivatives(c: &mut Criterion) {
     let plane = FreeFloating::planar(&problem).expect("a planar arm");
     let joints = 7;
     let arm = trees::chain(joints, 5);
-    let mut spatial = Problem::new("chain", arm, 10.0, &vec![0.0; joints], &vec![0.4; joints]);
+    let mut spatial = Problem::builder("chain", arm, 10.0, &vec![0.0; joints], &vec![0.4; joints]);
     spatial.cost.base_rate = vec![1.0; 3];
     spatial.cost.joint_rate = vec![0.1; joints];
+    let spatial = spatial.build().expect("a valid problem");
     let space = FreeFloating::spatial(&spatial);
     let mesh = || Mesh::uniform(10, 5).expect("a mesh");
     bench_derivatives(
@@ -66,8 +67,9 @@ fn bench_derivatives(c: &mut Criterion, name: &str, mut nlp: impl Nlp) {
 /// `table1-relaxed` from the problem to the trajectory: one mesh, and refined to 1e-5.
 fn plans(c: &mut Criterion) {
     let refined = problems::relaxed();
-    let mut single = refined.clone();
-    single.mesh.max_iterations = 1;
+    let single = refined
+        .edited(|single| single.mesh.max_iterations = 1)
+        .expect("a valid problem");
     let mut group = c.benchmark_group("table1-relaxed");
     group.sample_size(20);
     for (name, problem) in [("one NLP, 10×5", single), ("A-RPM to 1e-5", refined)] {

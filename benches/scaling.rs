@@ -18,11 +18,11 @@ const ITERATIONS: u32 = 4;
 /// A rest-to-rest motion of a chain of `n` random joints.
 fn chain(n: usize) -> Problem {
     let goal: Vec<f64> = (0..n).map(|j| 0.3 / (1.0 + j as f64)).collect();
-    let mut problem = Problem::new("chain", trees::chain(n, 5), 10.0, &vec![0.0; n], &goal);
+    let mut problem = Problem::builder("chain", trees::chain(n, 5), 10.0, &vec![0.0; n], &goal);
     problem.cost.base_rate = vec![1.0; 3];
     problem.cost.joint_rate = vec![0.1; n];
     problem.cost.control = vec![0.1; n];
-    problem
+    problem.build().expect("a valid problem")
 }
 
 /// Milliseconds an iteration in derivatives, in linear systems and in all.

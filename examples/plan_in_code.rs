@@ -49,7 +49,7 @@ fn robot() -> Result<Model, Box<dyn Error>> {
 
 /// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let mut problem = Problem::new("deploy", robot()?, 15.0, &[0.0; 3], &[0.8, -0.6, 0.9]);
+    let mut problem = Problem::builder("deploy", robot()?, 15.0, &[0.0; 3], &[0.8, -0.6, 0.9]);
     problem.limits.joint_velocity = vec![Interval::symmetric(0.5); 3];
     problem.limits.control = vec![Interval::symmetric(1.0); 3];
     problem.cost.final_base_attitude = vec![100.0];
@@ -57,6 +57,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     problem.cost.base_rate = vec![1.0];
     problem.cost.joint_rate = vec![0.05; 3];
     problem.cost.control = vec![0.1; 3];
+    let problem = problem.build()?;
 
     let plan = plan(&problem)?;
     assert_eq!(plan.status, Status::Solved);

@@ -13,12 +13,13 @@ use std::path::Path;
 /// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/config/table1-smooth.toml");
-    let mut problem = ProblemFile::load(Path::new(file), &Overrides::default())?.problem;
+    let shipped = ProblemFile::load(Path::new(file), &Overrides::default())?.problem;
     let mut planner = Planner::new();
     let mut last: Option<Start> = None;
     let mut cold = 0;
     for degrees in [60.0_f64, 62.0, 64.0, 66.0, 68.0, 70.0] {
-        problem.task.final_joints[1] = degrees.to_radians();
+        let elbow = degrees.to_radians();
+        let problem = shipped.edited(|problem| problem.task.final_joints[1] = elbow)?;
         let plan = planner.plan_with(&problem, last.as_ref(), &mut |_| Control::Continue)?;
         assert_eq!(plan.status, Status::Solved);
         let iterations: u32 = plan.iterations.iter().map(|r| r.nlp_iterations).sum();

@@ -56,14 +56,15 @@ fn straight_line_motion_is_the_published_one() {
 
 #[test]
 fn urdf_and_toml_describe_the_same_robot() {
-    let urdf = ProblemFile::shipped("chaser-7dof").unwrap().problem.robot;
+    let urdf = ProblemFile::shipped("chaser-7dof").unwrap().problem;
+    let urdf = urdf.into_builder().robot;
     let folder = Folder::new(include_str!("data/chaser.toml"));
     folder.write("chaser-7dof.toml", include_str!("data/chaser-7dof.toml"));
     let path = folder.path().join("case.toml");
     let toml = ProblemFile::load(&path, &Overrides::default())
         .unwrap()
-        .problem
-        .robot;
+        .problem;
+    let toml = toml.into_builder().robot;
     assert_eq!(urdf.base().inertia, toml.base().inertia);
     assert_eq!(urdf.joint_count(), toml.joint_count());
     for (a, b) in urdf.joints().iter().zip(toml.joints()) {
@@ -97,11 +98,18 @@ fn plan_where_the_base_matters_more() {
 #[test]
 fn every_description_of_the_attitude_gives_the_same_plan() {
     // Costs that do not depend on the description, and no limits that do.
-    let mut problem = ProblemFile::shipped("chaser-7dof").unwrap().problem;
-    problem.mesh.max_iterations = 1;
-    problem.mesh.segments = 10;
+    let problem = ProblemFile::shipped("chaser-7dof")
+        .unwrap()
+        .problem
+        .edited(|problem| {
+            problem.mesh.max_iterations = 1;
+            problem.mesh.segments = 10;
+        })
+        .unwrap();
     let [angles, quaternion, rodrigues] = SpatialAttitude::ALL.map(|attitude| {
-        problem.set_attitude(attitude);
+        let problem = problem
+            .edited(|problem| problem.set_attitude(attitude))
+            .unwrap();
         Planner::new().plan(&problem).unwrap()
     });
     assert!(angles.objective > 0.03, "J = {}", angles.objective);
@@ -120,9 +128,14 @@ fn every_description_of_the_attitude_gives_the_same_plan() {
 
 #[test]
 fn plans_do_not_depend_on_the_number_of_threads() {
-    let mut problem = ProblemFile::shipped("chaser-7dof").unwrap().problem;
-    (problem.mesh.segments, problem.mesh.points) = (12, 5);
-    problem.mesh.max_iterations = 1;
+    let problem = ProblemFile::shipped("chaser-7dof")
+        .unwrap()
+        .problem
+        .edited(|problem| {
+            (problem.mesh.segments, problem.mesh.points) = (12, 5);
+            problem.mesh.max_iterations = 1;
+        })
+        .unwrap();
     let plan = |threads| {
         let threads = NonZero::new(threads).unwrap();
         parallel::with_threads(threads, || Planner::new().plan(&problem).unwrap())

@@ -12,15 +12,18 @@ use ffsm_ipopt::verify::verify;
 
 #[test]
 fn a_still_arm_tumbles_and_drifts_as_one_body() {
-    let mut problem = problems::smooth();
-    problem.task.final_joints = problem.task.initial_joints.clone();
-    problem.limits.control = vec![Interval::FREE; 2];
-    problem.cost.final_base_attitude = vec![0.0];
-    problem.cost.final_base_position = vec![0.0; 2];
-    problem.cost.base_rate = vec![0.0];
-    problem.cost.joint_rate = vec![1e3; 2];
-    problem.task.initial_momentum.linear = vec![0.9, -0.4];
-    problem.task.initial_momentum.angular = vec![0.05];
+    let problem = problems::smooth()
+        .edited(|problem| {
+            problem.task.final_joints = problem.task.initial_joints.clone();
+            problem.limits.control = vec![Interval::FREE; 2];
+            problem.cost.final_base_attitude = vec![0.0];
+            problem.cost.final_base_position = vec![0.0; 2];
+            problem.cost.base_rate = vec![0.0];
+            problem.cost.joint_rate = vec![1e3; 2];
+            problem.task.initial_momentum.linear = vec![0.9, -0.4];
+            problem.task.initial_momentum.angular = vec![0.05];
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Solved);
     // Stretched out, about the mass centre.
@@ -50,15 +53,18 @@ fn a_still_arm_tumbles_and_drifts_as_one_body() {
 
 #[test]
 fn a_base_that_pitches_to_the_singularity_is_told_of() {
-    let mut problem = Problem::new("pitching", trees::chain(3, 12), 8.0, &[0.0; 3], &[0.1; 3]);
+    let mut problem = Problem::builder("pitching", trees::chain(3, 12), 8.0, &[0.0; 3], &[0.1; 3]);
     problem.cost.joint_rate = vec![1.0; 3];
     problem.cost.control = vec![0.1; 3];
     problem.mesh.max_iterations = 1;
     problem.solver.max_iterations = 60;
+    let problem = problem.build().unwrap();
     let calm = plan(&problem).unwrap();
     assert!(calm.warnings.is_empty(), "{:?}", calm.warnings);
     // Momentum about y turns the base over in a few seconds.
-    problem.task.initial_momentum.angular = vec![0.0, 8.0, 0.0];
+    let problem = problem
+        .edited(|problem| problem.task.initial_momentum.angular = vec![0.0, 8.0, 0.0])
+        .unwrap();
     let turned = plan(&problem).unwrap();
     assert!(
         turned
@@ -72,16 +78,20 @@ fn a_base_that_pitches_to_the_singularity_is_told_of() {
 
 #[test]
 fn plans_with_momentum_are_what_the_full_dynamics_do() {
-    let mut plane = problems::smooth();
-    plane.task.initial_momentum.linear = vec![0.3, 0.2];
-    plane.task.initial_momentum.angular = vec![-0.02];
-    plane.mesh.tolerance = 1e-6;
-    let mut space = Problem::new("tumbling", trees::chain(4, 12), 8.0, &[0.0; 4], &[0.5; 4]);
+    let plane = problems::smooth()
+        .edited(|plane| {
+            plane.task.initial_momentum.linear = vec![0.3, 0.2];
+            plane.task.initial_momentum.angular = vec![-0.02];
+            plane.mesh.tolerance = 1e-6;
+        })
+        .unwrap();
+    let mut space = Problem::builder("tumbling", trees::chain(4, 12), 8.0, &[0.0; 4], &[0.5; 4]);
     space.cost.joint_rate = vec![1.0; 4];
     space.cost.control = vec![0.1; 4];
     space.task.initial_momentum.linear = vec![0.5, -0.2, 0.1];
     space.task.initial_momentum.angular = vec![0.3, 0.2, -0.4];
     space.mesh.tolerance = 1e-6;
+    let space = space.build().unwrap();
     for problem in [plane, space] {
         let plan = plan(&problem).unwrap();
         assert_eq!(plan.status, Status::Solved, "{}", problem.name);
@@ -98,12 +108,15 @@ fn plans_with_momentum_are_what_the_full_dynamics_do() {
 /// `config/tumbling.toml`, whose base pitches through 90°, with the attitude described otherwise.
 fn tumbling(attitude: SpatialAttitude) -> Problem {
     let file = ProblemFile::load("config/tumbling.toml".as_ref(), &Overrides::default());
-    let mut problem = file.unwrap().problem;
+    let problem = file.unwrap().problem;
     assert_eq!(problem.attitude, SpatialAttitude::Quaternion);
     let rates = problem.limits.base_rate.clone();
-    problem.set_attitude(attitude);
-    problem.limits.base_rate = rates;
     problem
+        .edited(|problem| {
+            problem.set_attitude(attitude);
+            problem.limits.base_rate = rates;
+        })
+        .unwrap()
 }
 
 #[test]
@@ -150,10 +163,13 @@ fn a_base_that_turns_over_by_quaternion_and_by_rodrigues_parameters() {
 #[test]
 fn a_base_that_turns_over_by_roll_pitch_yaw() {
     // The rates of roll and yaw run into the limit that the base itself is far from.
-    let mut problem = tumbling(SpatialAttitude::RollPitchYaw);
-    problem.mesh.max_iterations = 1;
-    problem.mesh.segments = 8;
-    problem.mesh.points = 4;
+    let problem = tumbling(SpatialAttitude::RollPitchYaw)
+        .edited(|problem| {
+            problem.mesh.max_iterations = 1;
+            problem.mesh.segments = 8;
+            problem.mesh.points = 4;
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert!(plan.objective > 2.0, "J = {}", plan.objective);
 }

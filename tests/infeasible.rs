@@ -59,12 +59,15 @@ fn the_published_case_names_the_base_attitude_and_the_smallest_bound() {
 
 #[test]
 fn the_bound_that_was_found_does_work() {
-    let mut problem = problems::published();
-    problem.limits.base_attitude = vec![Interval::symmetric(29.2_f64.to_radians())];
-    problem.limits.final_base_attitude = problem.limits.base_attitude.clone();
-    // On this mesh, whose nodes alone are looked at.
-    problem.mesh.tolerance = 1.0;
-    problem.mesh.bound_tolerance = 1e3;
+    let problem = problems::published()
+        .edited(|problem| {
+            problem.limits.base_attitude = vec![Interval::symmetric(29.2_f64.to_radians())];
+            problem.limits.final_base_attitude = problem.limits.base_attitude.clone();
+            // On this mesh, whose nodes alone are looked at.
+            problem.mesh.tolerance = 1.0;
+            problem.mesh.bound_tolerance = 1e3;
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Solved, "{:?}", plan.diagnosis);
     assert!(plan.metrics.max_base_attitude.to_degrees() < 29.2 + 1e-3);
@@ -73,8 +76,9 @@ fn the_bound_that_was_found_does_work() {
 #[test]
 fn a_limit_on_the_joints_is_named_too() {
     // A radian in half a second at 0.9 rad/s: no base limit has a part in it.
-    let mut problem = problems::relaxed();
-    problem.task.duration = Interval::fixed(0.5);
+    let problem = problems::relaxed()
+        .edited(|problem| problem.task.duration = Interval::fixed(0.5))
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Infeasible);
     let limits = plan.diagnosis.expect("a diagnosis").limits;
@@ -94,7 +98,7 @@ fn a_limit_on_the_joints_is_named_too() {
 #[test]
 fn a_limit_on_the_rotation_angle_is_named_in_degrees() {
     // An arm that can hardly move on a base that tumbles: as one body, by L/I·t about z.
-    let mut problem = Problem::new(
+    let mut problem = Problem::builder(
         "still",
         problems::two_link().in_space(),
         20.0,
@@ -109,6 +113,7 @@ fn a_limit_on_the_rotation_angle_is_named_in_degrees() {
     problem.cost.joint_rate = vec![1.0; 2];
     problem.mesh.segments = 2;
     problem.mesh.points = 4;
+    let problem = problem.build().unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Infeasible);
     // Of (mass, inertia, distance) of each body.

@@ -7,14 +7,16 @@ use ffsm_ipopt::problem::{KeepOut, Obstacle, Problem, Sphere};
 
 /// The two-link arm swings its elbow from one side to the other, past a mast on the base.
 fn swing() -> Problem {
-    let mut problem = problems::smooth();
-    problem.task.initial_joints = vec![0.9, 0.5];
-    problem.task.final_joints = vec![-0.9, -0.5];
-    problem.limits.joint_position = vec![ffsm_ipopt::ocp::Interval::symmetric(2.8); 2];
-    problem.mesh.tolerance = 1e-3;
-    problem.mesh.segments = 20;
-    problem.mesh.max_iterations = 15;
-    problem
+    problems::smooth()
+        .edited(|problem| {
+            problem.task.initial_joints = vec![0.9, 0.5];
+            problem.task.final_joints = vec![-0.9, -0.5];
+            problem.limits.joint_position = vec![ffsm_ipopt::ocp::Interval::symmetric(2.8); 2];
+            problem.mesh.tolerance = 1e-3;
+            problem.mesh.segments = 20;
+            problem.mesh.max_iterations = 15;
+        })
+        .unwrap()
 }
 
 /// Joint positions at many times, far more than the mesh has nodes.
@@ -53,17 +55,19 @@ const MAST: [f64; 2] = [1.0, 0.0];
 
 /// The swing with 0.3 m kept between the forearm's end and the mast.
 fn around_the_mast() -> Problem {
-    let mut problem = swing();
-    problem.limits.keep_out = vec![KeepOut {
-        name: "mast".into(),
-        sphere: forearm_end(0.05),
-        from: Obstacle::Sphere(Sphere {
-            joint: None,
-            center: [MAST[0], MAST[1], 0.0],
-            radius: 0.25,
-        }),
-    }];
-    problem
+    swing()
+        .edited(|problem| {
+            problem.limits.keep_out = vec![KeepOut {
+                name: "mast".into(),
+                sphere: forearm_end(0.05),
+                from: Obstacle::Sphere(Sphere {
+                    joint: None,
+                    center: [MAST[0], MAST[1], 0.0],
+                    radius: 0.25,
+                }),
+            }]
+        })
+        .unwrap()
 }
 
 fn closest(plan: &Plan) -> f64 {
@@ -86,12 +90,15 @@ fn the_arm_goes_around_a_sphere() {
 
 #[test]
 fn slipping_through_between_points_is_no_solution() {
-    let mut problem = around_the_mast();
-    // The error estimate is content with anything.
-    problem.mesh.tolerance = 10.0;
-    problem.mesh.segments = 4;
-    problem.mesh.points = 4;
-    problem.mesh.max_iterations = 1;
+    let problem = around_the_mast()
+        .edited(|problem| {
+            // The error estimate is content with anything.
+            problem.mesh.tolerance = 10.0;
+            problem.mesh.segments = 4;
+            problem.mesh.points = 4;
+            problem.mesh.max_iterations = 1;
+        })
+        .unwrap();
     let coarse = plan(&problem).unwrap();
     assert_eq!(coarse.status, Status::NotConverged);
     assert!(coarse.max_error < problem.mesh.tolerance);
@@ -110,9 +117,12 @@ fn slipping_through_between_points_is_no_solution() {
 
 #[test]
 fn coming_too_near_between_points_is_refined_away() {
-    let mut problem = around_the_mast();
-    problem.mesh.tolerance = 10.0;
-    problem.mesh.points = 4;
+    let problem = around_the_mast()
+        .edited(|problem| {
+            problem.mesh.tolerance = 10.0;
+            problem.mesh.points = 4;
+        })
+        .unwrap();
     let refined = plan(&problem).unwrap();
     assert_eq!(refined.status, Status::Solved);
     assert_eq!(refined.warnings, [""; 0]);
@@ -125,13 +135,17 @@ fn coming_too_near_between_points_is_refined_away() {
 
 #[test]
 fn the_arm_stays_out_of_a_box() {
-    let mut problem = swing();
+    let problem = swing();
     let (center, half) = ([1.0, 0.0, 0.0], [0.1, 0.15, 0.2]);
-    problem.limits.keep_out = vec![KeepOut {
-        name: "box".into(),
-        sphere: forearm_end(0.05),
-        from: Obstacle::Box { center, half },
-    }];
+    let problem = problem
+        .edited(|problem| {
+            problem.limits.keep_out = vec![KeepOut {
+                name: "box".into(),
+                sphere: forearm_end(0.05),
+                from: Obstacle::Box { center, half },
+            }]
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Solved);
     // What is left between the points is small, and said.
@@ -155,20 +169,23 @@ fn the_arm_stays_out_of_a_box() {
 
 #[test]
 fn a_goal_inside_an_obstacle_is_named() {
-    let mut problem = swing();
-    problem.task.final_joints = vec![0.0, 0.0];
-    problem.limits.keep_out = vec![KeepOut {
-        name: "wall".into(),
-        sphere: forearm_end(0.0),
-        from: Obstacle::Sphere(Sphere {
-            joint: None,
-            center: [1.168, 0.0, 0.0],
-            radius: 0.6,
-        }),
-    }];
-    problem.mesh.segments = 4;
-    problem.mesh.points = 4;
-    problem.mesh.max_iterations = 1;
+    let problem = swing()
+        .edited(|problem| {
+            problem.task.final_joints = vec![0.0, 0.0];
+            problem.limits.keep_out = vec![KeepOut {
+                name: "wall".into(),
+                sphere: forearm_end(0.0),
+                from: Obstacle::Sphere(Sphere {
+                    joint: None,
+                    center: [1.168, 0.0, 0.0],
+                    radius: 0.6,
+                }),
+            }];
+            problem.mesh.segments = 4;
+            problem.mesh.points = 4;
+            problem.mesh.max_iterations = 1;
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Infeasible, "{:?}", plan.iterations);
     let limits = plan.diagnosis.unwrap().limits;

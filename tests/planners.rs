@@ -3,6 +3,7 @@
 mod problems;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
+use ffsm_ipopt::dynamics::Model;
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
@@ -70,9 +71,12 @@ fn matpm_accelerates_by_four_times_the_way_over_the_time_squared() {
 
 #[test]
 fn matpm_cruises_where_the_rate_limit_binds() {
-    let mut problem = problems::relaxed();
-    // The elbow would reach 2·(π/3)/20 = 0.1047 rad/s, the shoulder half of it.
-    problem.limits.joint_velocity = vec![Interval::symmetric(0.08); 2];
+    let problem = problems::relaxed()
+        .edited(|problem| {
+            // The elbow would reach 2·(π/3)/20 = 0.1047 rad/s, the shoulder half of it.
+            problem.limits.joint_velocity = vec![Interval::symmetric(0.08); 2];
+        })
+        .unwrap();
     let plan = plan(Method::Matpm, &problem);
     assert_eq!(plan.status, Status::Solved);
     assert!(ends_at_goal(&plan, &problem));
@@ -92,8 +96,9 @@ fn matpm_cruises_where_the_rate_limit_binds() {
 
 #[test]
 fn matpm_says_which_joint_is_too_slow() {
-    let mut problem = problems::relaxed();
-    problem.limits.joint_velocity = vec![Interval::symmetric(0.05); 2];
+    let problem = problems::relaxed()
+        .edited(|problem| problem.limits.joint_velocity = vec![Interval::symmetric(0.05); 2])
+        .unwrap();
     let plan = plan(Method::Matpm, &problem);
     assert_eq!(plan.status, Status::Infeasible);
     let diagnosis = plan.diagnosis.unwrap();
@@ -198,7 +203,7 @@ fn reaction_null_space_holds_the_base_on_a_redundant_arm() {
 
 #[test]
 fn reaction_null_space_of_two_links_is_a_line_that_misses_the_goal() {
-    let mut problem = problems::relaxed();
+    let problem = problems::relaxed();
     let missed = plan(Method::ReactionNullSpace, &problem);
     assert_eq!(missed.status, Status::Infeasible);
     let summary = missed.diagnosis.unwrap().summary;
@@ -210,7 +215,11 @@ fn reaction_null_space_of_two_links_is_a_line_that_misses_the_goal() {
         assert!(summary.contains(part), "{summary}");
     }
     // A goal on that line is reached, and with the base at rest.
-    problem.task.final_joints = missed.trajectory.joint_position.last().unwrap().clone();
+    let problem = problem
+        .edited(|problem| {
+            problem.task.final_joints = missed.trajectory.joint_position.last().unwrap().clone()
+        })
+        .unwrap();
     let reached = plan(Method::ReactionNullSpace, &problem);
     assert_eq!(reached.status, Status::Solved);
     assert!(ends_at_goal(&reached, &problem));
@@ -219,10 +228,10 @@ fn reaction_null_space_of_two_links_is_a_line_that_misses_the_goal() {
 
 #[test]
 fn reaction_null_space_needs_more_joints_than_angles() {
-    let mut problem = problems::relaxed();
     // The same robot in space: three angles, two joints about one axis.
-    problem.robot = problem.robot.in_space();
-    let spatial = Problem::new("space", problem.robot.clone(), 20.0, &[0.0; 2], &[0.5, 1.0]);
+    let robot = problems::two_link().in_space();
+    let spatial = Problem::builder("space", robot, 20.0, &[0.0; 2], &[0.5, 1.0]);
+    let spatial = spatial.build().unwrap();
     // All motion is about z, so that one row of three counts and the line is still there.
     let planar = plan(Method::ReactionNullSpace, &spatial);
     assert!(
@@ -233,11 +242,12 @@ fn reaction_null_space_needs_more_joints_than_angles() {
             .contains("single joint path")
     );
 
-    let mut chaser = shipped("chaser-7dof");
+    let chaser = shipped("chaser-7dof");
     let joints = chaser.robot.joints()[..3].to_vec();
     let base = chaser.robot.base().clone();
-    chaser.robot = ffsm_ipopt::dynamics::Model::new("three", base, joints).unwrap();
-    let three = Problem::new("three", chaser.robot, 20.0, &[0.1, 0.2, 0.3], &[0.5; 3]);
+    let robot = Model::new("three", base, joints).unwrap();
+    let three = Problem::builder("three", robot, 20.0, &[0.1, 0.2, 0.3], &[0.5; 3]);
+    let three = three.build().unwrap();
     let plan = plan(Method::ReactionNullSpace, &three);
     assert_eq!(plan.status, Status::Infeasible);
     assert_eq!(plan.metrics.peak_joint_velocity, 0.0);
@@ -251,8 +261,9 @@ fn reaction_null_space_needs_more_joints_than_angles() {
 
 #[test]
 fn reaction_null_space_stays_within_joint_limits() {
-    let mut problem = shipped("planar-3link");
-    problem.limits.joint_position[1] = Interval::new(0.5, 1.6);
+    let problem = shipped("planar-3link")
+        .edited(|problem| problem.limits.joint_position[1] = Interval::new(0.5, 1.6))
+        .unwrap();
     let plan = plan(Method::ReactionNullSpace, &problem);
     let elbow = plan.trajectory.joint_position.iter().map(|row| row[1]);
     let lowest = elbow.fold(f64::INFINITY, f64::min);
@@ -264,9 +275,12 @@ fn reaction_null_space_stays_within_joint_limits() {
 
 #[test]
 fn acceleration_qp_reaches_the_goal_within_the_limits() {
-    let mut problem = shipped("planar-3link");
-    problem.limits.control = vec![Interval::symmetric(0.02); 3];
-    problem.limits.joint_velocity = vec![Interval::symmetric(0.06); 3];
+    let problem = shipped("planar-3link")
+        .edited(|problem| {
+            problem.limits.control = vec![Interval::symmetric(0.02); 3];
+            problem.limits.joint_velocity = vec![Interval::symmetric(0.06); 3];
+        })
+        .unwrap();
     let qp = plan(Method::AccelerationQp, &problem);
     assert_eq!(qp.status, Status::Solved, "{:?}", qp.diagnosis);
     let last = qp.trajectory.joint_position.last().unwrap();
@@ -278,8 +292,9 @@ fn acceleration_qp_reaches_the_goal_within_the_limits() {
     assert!(drift.max_base_attitude_drift < 1e-8, "{drift:?}");
     // A weight on the base holds it still for longer.
     let turned_half_way = |weight: f64| {
-        let mut problem = shipped("planar-3link");
-        problem.cost.base_rate = vec![weight];
+        let problem = shipped("planar-3link")
+            .edited(|problem| problem.cost.base_rate = vec![weight])
+            .unwrap();
         let plan = plan(Method::AccelerationQp, &problem);
         let (mut x, mut u) = (vec![0.0; 7], vec![0.0; 3]);
         plan.discretization.at_fraction(0.5, &mut x, &mut u);
@@ -294,8 +309,9 @@ fn base_rate_moves_the_base_less_than_any_other() {
     let problem = problems::smooth();
     let motion = |method| {
         let plan = plan(method, &problem);
-        let mut unit = problem.clone();
-        unit.cost.base_rate = vec![1.0];
+        let unit = problem
+            .edited(|unit| unit.cost.base_rate = vec![1.0])
+            .unwrap();
         cost_terms(&unit, &plan.discretization).of(CostId::BaseRate)
     };
     let least = motion(Method::BaseRate);
@@ -314,13 +330,16 @@ fn base_rate_moves_the_base_less_than_any_other() {
 
 #[test]
 fn cost_terms_add_up_to_the_objective() {
-    let mut problem = problems::smooth();
-    problem.cost.torque = vec![0.3; 2];
-    problem.cost.rate_matrix = Some(vec![
-        vec![0.2, 0.05, 0.0],
-        vec![0.05, 0.1, 0.0],
-        vec![0.0, 0.0, 0.1],
-    ]);
+    let problem = problems::smooth()
+        .edited(|problem| {
+            problem.cost.torque = vec![0.3; 2];
+            problem.cost.rate_matrix = Some(vec![
+                vec![0.2, 0.05, 0.0],
+                vec![0.05, 0.1, 0.0],
+                vec![0.0, 0.0, 0.1],
+            ]);
+        })
+        .unwrap();
     let plan = ffsm_ipopt::planner::plan(&problem).unwrap();
     let terms = cost_terms(&problem, &plan.discretization);
     assert!(
@@ -336,10 +355,12 @@ fn cost_terms_add_up_to_the_objective() {
 #[test]
 fn tasks_that_are_not_in_joint_space_are_refused_by_their_key() {
     let capture = shipped("capture");
-    let mut moving = problems::relaxed();
-    moving.task.initial_rates[0] = 0.1;
-    let mut tumbling = problems::relaxed();
-    tumbling.task.initial_momentum.angular[0] = 0.1;
+    let moving = problems::relaxed()
+        .edited(|moving| moving.task.initial_rates[0] = 0.1)
+        .unwrap();
+    let tumbling = problems::relaxed()
+        .edited(|tumbling| tumbling.task.initial_momentum.angular[0] = 0.1)
+        .unwrap();
     for (method, problem, key) in [
         (Method::Matpm, &capture, "task.final.end_effector"),
         (Method::AccelerationQp, &capture, "task.final.end_effector"),
@@ -360,9 +381,11 @@ fn tasks_that_are_not_in_joint_space_are_refused_by_their_key() {
 #[test]
 fn a_motion_is_the_same_however_the_base_attitude_is_described() {
     let by_angles = shipped("chaser-7dof");
-    let mut by_quaternion = by_angles.clone();
-    by_quaternion.set_attitude(SpatialAttitude::Quaternion);
-    by_quaternion.cost.final_base_attitude = vec![1.0];
+    let by_quaternion = by_angles.edited(|by_quaternion| {
+        by_quaternion.set_attitude(SpatialAttitude::Quaternion);
+        by_quaternion.cost.final_base_attitude = vec![1.0];
+    });
+    let by_quaternion = by_quaternion.unwrap();
     for method in [
         Method::Matpm,
         Method::ReactionNullSpace,

@@ -14,10 +14,11 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 /// The smooth two-link case with an end effector at the forearm's end.
 fn two_link() -> Problem {
-    let mut problem = problems::smooth();
     let tip = Placement::from_xyz_rpy([0.35 + 0.156, 0.0, 0.0], [0.0; 3]);
-    problem.robot = problem.robot.with_end_effector(Some(1), tip);
-    problem
+    let robot = problems::two_link().with_end_effector(Some(1), tip);
+    problems::smooth()
+        .edited(|problem| problem.robot = robot)
+        .unwrap()
 }
 
 /// Where the two-link arm's end effector is at t_f: inertial position from the system's mass
@@ -46,9 +47,12 @@ fn tip(plan: &Plan) -> ([f64; 2], f64) {
 fn a_point_reached_by_the_joint_goal_costs_no_more_as_a_point() {
     let by_joints = plan(&two_link()).unwrap();
     let (point, _) = tip(&by_joints);
-    let mut problem = two_link();
-    problem.task.free_joints = vec![true; 2];
-    problem.task.end_effector = Some(EndEffectorGoal::at(GoalFrame::Inertial, &point));
+    let problem = two_link()
+        .edited(|problem| {
+            problem.task.free_joints = vec![true; 2];
+            problem.task.end_effector = Some(EndEffectorGoal::at(GoalFrame::Inertial, &point));
+        })
+        .unwrap();
     let by_point = plan(&problem).unwrap();
     assert_eq!(by_point.status, Status::Solved);
     let (reached, _) = tip(&by_point);
@@ -67,9 +71,12 @@ fn a_point_seen_from_the_start_is_the_same_point() {
     let (point, _) = tip(&by_joints);
     let start = &by_joints.trajectory.base_position[0];
     let seen = [point[0] - start[0], point[1] - start[1]];
-    let mut problem = two_link();
-    problem.task.free_joints = vec![true; 2];
-    problem.task.end_effector = Some(EndEffectorGoal::at(GoalFrame::Start, &seen));
+    let problem = two_link()
+        .edited(|problem| {
+            problem.task.free_joints = vec![true; 2];
+            problem.task.end_effector = Some(EndEffectorGoal::at(GoalFrame::Start, &seen));
+        })
+        .unwrap();
     let by_point = plan(&problem).unwrap();
     let (reached, _) = tip(&by_point);
     assert!((reached[0] - point[0]).hypot(reached[1] - point[1]) < 1e-7);
@@ -77,16 +84,19 @@ fn a_point_seen_from_the_start_is_the_same_point() {
 
 #[test]
 fn a_heading_with_a_tolerance_is_met_at_its_near_edge() {
-    let mut problem = two_link();
-    problem.task.final_joints = vec![0.0, 0.3];
-    problem.task.free_joints = vec![false, true];
-    problem.task.end_effector = Some(EndEffectorGoal {
-        frame: GoalFrame::Base,
-        position: None,
-        position_tolerance: 0.0,
-        orientation: Some(vec![1.0]),
-        orientation_tolerance: 0.1,
-    });
+    let problem = two_link()
+        .edited(|problem| {
+            problem.task.final_joints = vec![0.0, 0.3];
+            problem.task.free_joints = vec![false, true];
+            problem.task.end_effector = Some(EndEffectorGoal {
+                frame: GoalFrame::Base,
+                position: None,
+                position_tolerance: 0.0,
+                orientation: Some(vec![1.0]),
+                orientation_tolerance: 0.1,
+            });
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Solved);
     let joints = plan.trajectory.joint_position.last().unwrap();
@@ -97,9 +107,12 @@ fn a_heading_with_a_tolerance_is_met_at_its_near_edge() {
 
 #[test]
 fn a_point_out_of_reach_is_named() {
-    let mut problem = two_link();
-    problem.task.free_joints = vec![true; 2];
-    problem.task.end_effector = Some(EndEffectorGoal::at(GoalFrame::Base, &[2.0, 0.5]));
+    let problem = two_link()
+        .edited(|problem| {
+            problem.task.free_joints = vec![true; 2];
+            problem.task.end_effector = Some(EndEffectorGoal::at(GoalFrame::Base, &[2.0, 0.5]));
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Infeasible);
     let limits = plan.diagnosis.unwrap().limits;
@@ -113,12 +126,13 @@ fn a_point_out_of_reach_is_named() {
 
 #[test]
 fn a_pose_in_space_is_reached() {
-    let mut problem = Problem::new("pose", trees::chain(6, 9), 10.0, &[0.0; 6], &[0.0; 6]);
+    let mut problem = Problem::builder("pose", trees::chain(6, 9), 10.0, &[0.0; 6], &[0.0; 6]);
     let mount = Placement::from_xyz_rpy([0.2, 0.1, 0.3], [0.3, -0.5, 1.0]);
     problem.robot = problem.robot.with_end_effector(Some(5), mount.clone());
     problem.cost.joint_rate = vec![1.0; 6];
     problem.cost.base_rate = vec![1.0; 3];
     problem.cost.control = vec![0.1; 6];
+    let problem = problem.build().unwrap();
     let wanted: [f64; 6] = [0.4, -0.3, 0.5, 0.2, -0.4, 0.3];
     let pose = |q: &[f64]| -> (Matrix3<f64>, Vector3<f64>) {
         let mut rotation = Matrix3::identity();
@@ -135,23 +149,27 @@ fn a_pose_in_space_is_reached() {
     };
     let (rotation, position) = pose(&wanted);
     let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(rotation).euler_angles();
-    let mut task = problem.clone();
-    task.task.free_joints = vec![true; 6];
-    task.task.end_effector = Some(EndEffectorGoal {
-        frame: GoalFrame::Base,
-        position: Some(position.iter().copied().collect()),
-        position_tolerance: 0.0,
-        orientation: Some(vec![roll, pitch, yaw]),
-        orientation_tolerance: 0.0,
-    });
+    let task = problem
+        .edited(|task| {
+            task.task.free_joints = vec![true; 6];
+            task.task.end_effector = Some(EndEffectorGoal {
+                frame: GoalFrame::Base,
+                position: Some(position.iter().copied().collect()),
+                position_tolerance: 0.0,
+                orientation: Some(vec![roll, pitch, yaw]),
+                orientation_tolerance: 0.0,
+            });
+        })
+        .unwrap();
     let plan = plan(&task).unwrap();
     assert_eq!(plan.status, Status::Solved);
     let (turned, reached) = pose(plan.trajectory.joint_position.last().unwrap());
     assert!((reached - position).norm() < 1e-7);
     assert!((turned - rotation).norm() < 1e-7);
     // The joints that reach it are one way to do so.
-    let mut by_joints = problem.clone();
-    by_joints.task.final_joints = wanted.to_vec();
+    let by_joints = problem
+        .edited(|by_joints| by_joints.task.final_joints = wanted.to_vec())
+        .unwrap();
     let by_joints = self::plan(&by_joints).unwrap();
     assert_eq!(by_joints.status, Status::Solved);
     assert!(
@@ -293,14 +311,16 @@ fn passed(plan: &Plan, fraction: f64) -> &[f64] {
 
 #[test]
 fn a_way_point_is_passed_at_its_time() {
-    let mut problem = two_link();
+    let problem = two_link();
     let direct = plan(&problem).unwrap();
     // Back and forth: 0.8 and −0.4 after 7 s, at rest; then joint 2 alone through 0.9.
     let mut stop = WayPoint::joints(Moment::Time(7.0), &[0.8, -0.4]);
     stop.joint_rates = vec![Some(0.0); 2];
     let mut half = WayPoint::joints(Moment::Fraction(0.61), &[0.0, 0.9]);
     half.joints[0] = None;
-    problem.task.way_points = vec![stop, half];
+    let problem = problem
+        .edited(|problem| problem.task.way_points = vec![stop, half])
+        .unwrap();
     let through = plan(&problem).unwrap();
     assert_eq!(through.status, Status::Solved);
     assert!(through.trajectory.t.contains(&7.0));
@@ -320,13 +340,18 @@ fn a_way_point_is_passed_at_its_time() {
 
 #[test]
 fn a_way_point_on_the_best_path_costs_nothing() {
-    let mut problem = two_link();
-    problem.mesh.tolerance = 1e-7;
+    let problem = two_link()
+        .edited(|problem| problem.mesh.tolerance = 1e-7)
+        .unwrap();
     let direct = plan(&problem).unwrap();
     let node = direct.discretization.mesh.points() / 3;
     let fraction = direct.discretization.mesh.node_fractions()[node];
     let joints = &direct.discretization.state(node)[1..3];
-    problem.task.way_points = vec![WayPoint::joints(Moment::Fraction(fraction), joints)];
+    let problem = problem
+        .edited(|problem| {
+            problem.task.way_points = vec![WayPoint::joints(Moment::Fraction(fraction), joints)]
+        })
+        .unwrap();
     let through = plan(&problem).unwrap();
     assert_eq!(through.status, Status::Solved);
     let gap = (through.objective - direct.objective).abs();
@@ -336,9 +361,12 @@ fn a_way_point_on_the_best_path_costs_nothing() {
 #[test]
 fn one_planner_serves_problems_with_and_without_way_points() {
     let mut planner = Planner::new();
-    let mut problem = two_link();
-    problem.mesh.max_iterations = 1;
-    problem.mesh.tolerance = 1.0;
+    let mut problem = two_link()
+        .edited(|problem| {
+            problem.mesh.max_iterations = 1;
+            problem.mesh.tolerance = 1.0;
+        })
+        .unwrap();
     let mut point = WayPoint::joints(Moment::Fraction(0.4), &[0.4, 0.2]);
     let mut objectives = Vec::new();
     for end_effector in [
@@ -348,7 +376,9 @@ fn one_planner_serves_problems_with_and_without_way_points() {
         objectives.push(planner.plan(&problem).unwrap().objective);
         point.end_effector = end_effector;
         point.joints = vec![None, Some(0.2)];
-        problem.task.way_points = vec![point.clone()];
+        problem = problem
+            .edited(|problem| problem.task.way_points = vec![point.clone()])
+            .unwrap();
     }
     let last = planner.plan(&problem).unwrap();
     assert_eq!(last.status, Status::Solved);
@@ -362,12 +392,13 @@ fn one_planner_serves_problems_with_and_without_way_points() {
 #[test]
 fn a_pose_in_space_is_passed_on_the_way() {
     let n = 6;
-    let mut problem = Problem::new("pose", trees::chain(n, 9), 10.0, &[0.0; 6], &[0.1; 6]);
+    let mut problem = Problem::builder("pose", trees::chain(n, 9), 10.0, &[0.0; 6], &[0.1; 6]);
     let mount = Placement::from_xyz_rpy([0.2, 0.1, 0.3], [0.3, -0.5, 1.0]);
     problem.robot = problem.robot.with_end_effector(Some(n - 1), mount.clone());
     problem.cost.joint_rate = vec![1.0; n];
     problem.cost.base_rate = vec![1.0; 3];
     problem.cost.control = vec![0.1; n];
+    let problem = problem.build().unwrap();
     // The base's own pose at 40 % of the way there and back again.
     let robot = problem.robot.clone();
     let pose = |x: &[f64], base: &[f64], start: &[f64]| -> (Matrix3<f64>, Vector3<f64>) {
@@ -390,8 +421,9 @@ fn a_pose_in_space_is_passed_on_the_way() {
     };
     // A pose that joints can reach there, a way off the direct path.
     let by_joints = WayPoint::joints(Moment::Fraction(0.4), &[0.4, -0.3, 0.5, 0.2, -0.4, 0.3]);
-    let mut joints = problem.clone();
-    joints.task.way_points = vec![by_joints];
+    let joints = problem
+        .edited(|joints| joints.task.way_points = vec![by_joints])
+        .unwrap();
     let joints = plan(&joints).unwrap();
     assert_eq!(joints.status, Status::Solved);
     let (rotation, position) = at(&joints, 0.4);
@@ -403,7 +435,11 @@ fn a_pose_in_space_is_passed_on_the_way() {
         orientation: Some(vec![roll, pitch, yaw]),
         orientation_tolerance,
     };
-    problem.task.way_points = vec![WayPoint::pose(Moment::Time(4.0), n, goal(0.0, 0.0))];
+    let problem = problem
+        .edited(|problem| {
+            problem.task.way_points = vec![WayPoint::pose(Moment::Time(4.0), n, goal(0.0, 0.0))]
+        })
+        .unwrap();
     let exact = plan(&problem).unwrap();
     assert_eq!(exact.status, Status::Solved);
     let (turned, reached) = at(&exact, 0.4);
@@ -411,7 +447,11 @@ fn a_pose_in_space_is_passed_on_the_way() {
     assert!((turned - rotation).norm() < 1e-7);
     // The pose leaves joints to the planner, a tolerance leaves more.
     assert!(exact.objective <= joints.objective * (1.0 + 1e-6));
-    problem.task.way_points = vec![WayPoint::pose(Moment::Time(4.0), n, goal(0.02, 0.1))];
+    let problem = problem
+        .edited(|problem| {
+            problem.task.way_points = vec![WayPoint::pose(Moment::Time(4.0), n, goal(0.02, 0.1))]
+        })
+        .unwrap();
     let near = plan(&problem).unwrap();
     assert_eq!(near.status, Status::Solved);
     assert!(near.objective < 0.99 * exact.objective);
@@ -430,9 +470,12 @@ fn a_pose_in_space_is_passed_on_the_way() {
 
 #[test]
 fn a_way_point_that_cannot_be_reached_in_time_is_named() {
-    let mut problem = two_link();
-    // 1 rad in 0.4 s at 0.9 rad/s.
-    problem.task.way_points = vec![WayPoint::joints(Moment::Time(0.4), &[1.0, 0.0])];
+    let problem = two_link()
+        .edited(|problem| {
+            // 1 rad in 0.4 s at 0.9 rad/s.
+            problem.task.way_points = vec![WayPoint::joints(Moment::Time(0.4), &[1.0, 0.0])];
+        })
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Infeasible);
     let limits = plan.diagnosis.unwrap().limits;

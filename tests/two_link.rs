@@ -5,6 +5,7 @@ mod problems;
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Plan, Planner, Start, Status, plan};
+use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::refine::{Decision, Method};
 use ffsm_ipopt::system::straight_line;
 
@@ -19,10 +20,11 @@ fn straight_joint_path_turns_the_base() {
 
 #[test]
 fn straight_joint_path_is_the_same_in_space() {
-    let mut problem = problems::relaxed();
+    let problem = problems::relaxed();
     let plane = straight_line(&problem);
-    problem.robot = problem.robot.in_space();
-    let space = straight_line(&problem);
+    let (robot, goal) = (problems::two_link().in_space(), &problem.task.final_joints);
+    let space = Problem::builder("space", robot, 20.0, &[0.0; 2], goal);
+    let space = straight_line(&space.build().unwrap());
     assert!((plane.base_attitude[0] - space.base_attitude[2]).abs() < 1e-12);
     assert!(space.base_attitude[0].abs() < 1e-14 && space.base_attitude[1].abs() < 1e-14);
     assert!((plane.base_displacement[0] - space.base_displacement[0]).abs() < 1e-12);
@@ -30,8 +32,9 @@ fn straight_joint_path_is_the_same_in_space() {
 
 #[test]
 fn first_mesh_of_the_relaxed_case() {
-    let mut problem = problems::relaxed();
-    problem.mesh.max_iterations = 1;
+    let problem = problems::relaxed()
+        .edited(|problem| problem.mesh.max_iterations = 1)
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::NotConverged);
     assert!(
@@ -80,8 +83,9 @@ fn smooth_case_meets_its_optimum() {
 
 #[test]
 fn smooth_case_by_the_global_method() {
-    let mut problem = problems::smooth();
-    problem.mesh.method = Method::Global;
+    let problem = problems::smooth()
+        .edited(|problem| problem.mesh.method = Method::Global)
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Solved);
     assert!(
@@ -96,8 +100,9 @@ fn smooth_case_by_the_global_method() {
 
 #[test]
 fn layers_defeat_the_global_method() {
-    let mut problem = problems::relaxed();
-    problem.mesh.method = Method::Global;
+    let problem = problems::relaxed()
+        .edited(|problem| problem.mesh.method = Method::Global)
+        .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::NotConverged);
     assert_eq!(
@@ -110,18 +115,21 @@ fn layers_defeat_the_global_method() {
 #[test]
 fn both_forms_of_the_dynamics_plan_the_same() {
     let plane = plan(&problems::smooth()).unwrap();
-    let mut problem = problems::smooth();
-    let robot = problem.robot.in_space();
-    let spatial = ffsm_ipopt::problem::Problem::new("space", robot, 20.0, &[0.0; 2], &[0.0; 2]);
-    problem.robot = spatial.robot;
+    let robot = problems::two_link().in_space();
+    let spatial = Problem::builder("space", robot, 20.0, &[0.0; 2], &[0.0; 2]);
     let yaw_only = |value: f64| vec![0.0, 0.0, value];
-    problem.cost.final_base_attitude = yaw_only(1.0);
-    problem.cost.base_rate = yaw_only(0.6);
-    problem.cost.final_base_position = vec![1.0, 1.0, 0.0];
-    problem.limits.base_attitude = spatial.limits.base_attitude;
-    problem.limits.final_base_attitude = spatial.limits.final_base_attitude;
-    problem.limits.base_rate = spatial.limits.base_rate;
-    problem.task.initial_momentum = spatial.task.initial_momentum;
+    let problem = problems::smooth()
+        .edited(|problem| {
+            problem.robot = spatial.robot;
+            problem.cost.final_base_attitude = yaw_only(1.0);
+            problem.cost.base_rate = yaw_only(0.6);
+            problem.cost.final_base_position = vec![1.0, 1.0, 0.0];
+            problem.limits.base_attitude = spatial.limits.base_attitude;
+            problem.limits.final_base_attitude = spatial.limits.final_base_attitude;
+            problem.limits.base_rate = spatial.limits.base_rate;
+            problem.task.initial_momentum = spatial.task.initial_momentum;
+        })
+        .unwrap();
     let space = plan(&problem).unwrap();
     assert_eq!(space.status, Status::Solved);
     assert!((plane.objective - space.objective).abs() < 1e-9);
@@ -129,8 +137,9 @@ fn both_forms_of_the_dynamics_plan_the_same() {
 
 #[test]
 fn a_saved_solution_starts_the_next_plan() {
-    let mut problem = problems::smooth();
-    problem.mesh.tolerance = 1e-3;
+    let problem = problems::smooth()
+        .edited(|problem| problem.mesh.tolerance = 1e-3)
+        .unwrap();
     let mut planner = Planner::new();
     let cold = planner.plan(&problem).unwrap();
     let start = Start {
@@ -162,10 +171,12 @@ fn a_replan_takes_under_half_the_iterations_of_a_cold_one() {
         let mut planner = Planner::new();
         let start = saved(&planner.plan(&problem).unwrap());
         for degrees in [[0.0, 5.0], [5.0, 5.0], [-5.0, -5.0]] {
-            let mut moved = problem.clone();
-            for (goal, by) in moved.task.final_joints.iter_mut().zip(degrees) {
-                *goal += f64::to_radians(by);
-            }
+            let moved = problem.edited(|moved| {
+                for (goal, by) in moved.task.final_joints.iter_mut().zip(degrees) {
+                    *goal += f64::to_radians(by);
+                }
+            });
+            let moved = moved.unwrap();
             let cold = planner.plan(&moved).unwrap();
             let warm = planner
                 .plan_with(&moved, Some(&start), &mut |_| Control::Continue)
@@ -187,8 +198,9 @@ fn multipliers_are_taken_over_by_a_problem_with_other_rows() {
     let problem = problems::smooth();
     let mut planner = Planner::new();
     let start = saved(&planner.plan(&problem).unwrap());
-    let mut limited = problem.clone();
-    limited.limits.torque = vec![Interval::symmetric(1.0); 2];
+    let limited = problem
+        .edited(|limited| limited.limits.torque = vec![Interval::symmetric(1.0); 2])
+        .unwrap();
     let primal = Start {
         iterate: None,
         ..start.clone()

@@ -6,6 +6,7 @@ mod program;
 use ffsm_ipopt::config::ProblemFile;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Planner, Status, plan};
+use ffsm_ipopt::problem::ProblemBuilder;
 use program::{Folder, PROBLEM, edited};
 
 #[test]
@@ -66,11 +67,12 @@ fn the_program_ends_as_for_an_unconverged_plan() {
 fn a_planner_keeps_nothing_that_wider_bounds_make_wrong() {
     let problem = ProblemFile::shipped("chaser-7dof").unwrap().problem;
     let bounded = |pitch: f64| {
-        let mut problem = problem.clone();
-        problem.limits.base_attitude[1] = Interval::symmetric(pitch);
-        problem.limits.final_base_attitude[1] = Interval::symmetric(pitch);
-        problem.mesh.max_iterations = 1;
-        problem
+        let change = |problem: &mut ProblemBuilder| {
+            problem.limits.base_attitude[1] = Interval::symmetric(pitch);
+            problem.limits.final_base_attitude[1] = Interval::symmetric(pitch);
+            problem.mesh.max_iterations = 1;
+        };
+        problem.edited(change).unwrap()
     };
     let mut planner = Planner::new();
     let held = planner.plan(&bounded(0.0)).unwrap();
@@ -84,10 +86,13 @@ fn a_planner_keeps_nothing_that_wider_bounds_make_wrong() {
 /// With joints that stand still, momentum turns the whole system as one body.
 #[test]
 fn the_straight_line_figure_knows_the_momentum() {
-    let mut problem = problems::smooth();
-    problem.task.final_joints = problem.task.initial_joints.clone();
-    problem.task.initial_momentum.angular = vec![0.3];
-    problem.task.initial_momentum.linear = vec![0.9, 0.0];
+    let problem = problems::smooth()
+        .edited(|problem| {
+            problem.task.final_joints = problem.task.initial_joints.clone();
+            problem.task.initial_momentum.angular = vec![0.3];
+            problem.task.initial_momentum.linear = vec![0.9, 0.0];
+        })
+        .unwrap();
     let (mass, moment, about_origin) = problems::two_link_composite();
     let inertia = about_origin - moment * moment / mass;
     let found = ffsm_ipopt::system::straight_line(&problem);

@@ -106,8 +106,9 @@ fn case(
         Some(tree) => plan(&tree, PlanarAngle, &path, mesh),
         None => plan(&Tree::spatial(&model), attitude, &path, mesh),
     };
-    let mut problem = Problem::new("test", model, DURATION, &path.from, &path.to);
+    let mut problem = Problem::builder("test", model, DURATION, &path.from, &path.to);
     problem.set_attitude(attitude);
+    let problem = problem.build().unwrap();
     (problem, plan)
 }
 
@@ -251,7 +252,9 @@ fn a_state_that_is_no_orientation_is_no_small_drift() {
 #[test]
 fn misuse_is_explained() {
     let (problem, plan) = two_link_plan(Mesh::uniform(2, 3).unwrap());
-    let other = Problem::new("other", trees::zoo(1).remove(1), 1.0, &[0.0; 3], &[0.0; 3]);
+    let other = Problem::builder("other", trees::zoo(1).remove(1), 1.0, &[0.0; 3], &[0.0; 3])
+        .build()
+        .unwrap();
     let error = verify(&other, &plan).unwrap_err();
     assert!(
         matches!(

@@ -1,14 +1,15 @@
 //! `check`: what a problem file was understood to say.
 
 use super::failure::Failure;
-use super::show::{Quantity, by_name, rounded};
+use super::show::{by_name, rounded, show, show_interval};
 use super::{Outcome, terminal};
 use crate::config::{Overrides, ProblemFile};
 use crate::dynamics::JointKind;
-use crate::dynamics::attitude::{Attitude, SpatialAttitude};
+use crate::dynamics::attitude::SpatialAttitude;
 use crate::ocp::Interval;
 use crate::problem::{
-    EndEffectorGoal, GoalFrame, KeepOut, Moment, Obstacle, Problem, Sphere, WayPoint,
+    ComponentKind, CostEntry, CostId, EndEffectorGoal, GoalFrame, KeepOut, LimitId, Moment,
+    Obstacle, Problem, Sphere, Unit, WayPoint,
 };
 use crate::refine::Method;
 use crate::report::{Lines, rotation};
@@ -100,7 +101,7 @@ fn task(lines: &mut Lines, problem: &Problem) {
     };
     lines.add("duration", duration);
     for (i, joint) in problem.robot.joints().iter().enumerate() {
-        let at = |value| Quantity::Position(joint.kind).show(value);
+        let at = |value| show(Unit::position(joint.kind), value);
         let goal = if task.free_joints[i] {
             "wherever the end effector needs it".into()
         } else {
@@ -108,7 +109,7 @@ fn task(lines: &mut Lines, problem: &Problem) {
         };
         let mut motion = format!("{} to {goal}", at(task.initial_joints[i]));
         if task.initial_rates[i] != 0.0 {
-            let rate = Quantity::Rate(joint.kind).show(task.initial_rates[i]);
+            let rate = show(Unit::rate(joint.kind), task.initial_rates[i]);
             motion.push_str(&format!(", starting at {rate}"));
         }
         lines.add(&format!("joint {}", joint.name), motion);
@@ -137,14 +138,14 @@ fn way_point(problem: &Problem, point: &WayPoint) -> String {
         Moment::Time(time) => format!("at {} s", rounded(time)),
         Moment::Fraction(part) => format!("at {} of the duration", rounded(part)),
     }];
-    type Of = fn(JointKind) -> Quantity;
-    for (values, quantity) in [
-        (&point.joints, Quantity::Position as Of),
-        (&point.joint_rates, Quantity::Rate),
+    type Of = fn(JointKind) -> Unit;
+    for (values, unit) in [
+        (&point.joints, Unit::position as Of),
+        (&point.joint_rates, Unit::rate),
     ] {
         let joints = problem.robot.joints().iter().zip(values);
         parts.extend(joints.filter_map(|(joint, value)| {
-            let value = quantity(joint.kind).show((*value)?);
+            let value = show(unit(joint.kind), (*value)?);
             Some(format!("{} {value}", joint.name))
         }));
     }
@@ -156,28 +157,24 @@ fn way_point(problem: &Problem, point: &WayPoint) -> String {
 
 /// A task-space goal in one line, but for when.
 fn end_effector(goal: &EndEffectorGoal) -> String {
-    let list = |values: &[f64], quantity: Quantity| {
-        let shown: Vec<String> = values.iter().map(|v| quantity.show(*v)).collect();
+    let list = |values: &[f64], unit: Unit| {
+        let shown: Vec<String> = values.iter().map(|v| show(unit, *v)).collect();
         shown.join(", ")
     };
-    let (length, angle) = (
-        Quantity::Position(JointKind::Prismatic),
-        Quantity::Position(JointKind::Revolute),
-    );
     let mut parts = Vec::new();
-    for (what, values, room, quantity) in [
-        ("at", &goal.position, goal.position_tolerance, length),
+    for (what, values, room, unit) in [
+        ("at", &goal.position, goal.position_tolerance, Unit::Metre),
         (
             "turned",
             &goal.orientation,
             goal.orientation_tolerance,
-            angle,
+            Unit::Radian,
         ),
     ] {
         if let Some(values) = values {
-            let mut part = format!("{what} {}", list(values, quantity));
+            let mut part = format!("{what} {}", list(values, unit));
             if room > 0.0 {
-                part.push_str(&format!(" ± {}", quantity.show(room)));
+                part.push_str(&format!(" ± {}", show(unit, room)));
             }
             parts.push(part);
         }
@@ -191,65 +188,39 @@ fn end_effector(goal: &EndEffectorGoal) -> String {
 }
 
 fn limits(lines: &mut Lines, problem: &Problem) {
-    type Of = fn(JointKind) -> Quantity;
-    let limits = &problem.limits;
-    let joints = problem.robot.joints();
-    let names: Vec<String> = joints.iter().map(|joint| joint.name.clone()).collect();
     lines.add("limits", "");
-    for (label, bounds, quantity) in [
-        (
-            "joint position",
-            &limits.joint_position,
-            Quantity::Position as Of,
-        ),
-        ("joint velocity", &limits.joint_velocity, Quantity::Rate),
-        ("control", &limits.control, Quantity::Acceleration),
-        ("torque", &limits.torque, Quantity::Effort),
-    ] {
-        let shown: Vec<String> = joints
-            .iter()
-            .zip(bounds)
-            .map(|(joint, bound)| quantity(joint.kind).show_interval(bound))
-            .collect();
-        lines.add(&format!("  {label}"), by_name(&names, &shown));
+    limits_on(lines, problem, ComponentKind::Joint);
+    for pair in &problem.limits.keep_out {
+        let label = format!("  {}", LimitId::KeepOut.words());
+        lines.add(&label, keep_out(problem, pair));
     }
-    for pair in &limits.keep_out {
-        lines.add("  kept apart", keep_out(problem, pair));
-    }
-    let (angles, axes) = base_names(problem);
-    for (label, names, bounds, quantity) in [
-        (
-            "base attitude",
-            &angles,
-            &limits.base_attitude,
-            Quantity::Position as Of,
-        ),
-        (
-            "final attitude",
-            &angles,
-            &limits.final_base_attitude,
-            Quantity::Position,
-        ),
-        ("base rate", &axes, &limits.base_rate, Quantity::Rate),
-    ] {
-        let shown: Vec<String> = bounds
-            .iter()
-            .map(|bound| {
-                let shown = quantity(JointKind::Revolute).show_interval(bound);
-                match shown.strip_prefix('±') {
-                    // A rotation angle has no sign.
-                    Some(bound) if names[0] == ROTATION => format!("turned by at most {bound}"),
-                    _ => shown,
-                }
-            })
-            .collect();
-        lines.add(&format!("  {label}"), by_name(names, &shown));
+    limits_on(lines, problem, ComponentKind::BaseAttitude);
+    limits_on(lines, problem, ComponentKind::BaseRate);
+    limits_on(lines, problem, ComponentKind::BasePosition);
+}
+
+/// The limits that have one bound a component of that kind.
+fn limits_on(lines: &mut Lines, problem: &Problem, kind: ComponentKind) {
+    let names = component_names(problem, kind);
+    // A rotation angle has no sign.
+    let turned = kind == ComponentKind::BaseAttitude && problem.has_rotation_angle();
+    let entries = problem.limits.entries();
+    for entry in entries.filter(|entry| entry.components == kind) {
+        let show = |(i, bound): (usize, &Interval)| {
+            let shown = show_interval(entry.unit(&problem.robot, i), bound);
+            match shown.strip_prefix('±') {
+                Some(bound) if turned => format!("turned by at most {bound}"),
+                _ => shown,
+            }
+        };
+        let shown: Vec<String> = entry.bounds.iter().enumerate().map(show).collect();
+        let label = format!("  {}", entry.id.words());
+        lines.add(&label, by_name(&names, &shown));
     }
 }
 
 /// A pair kept apart in one line.
 fn keep_out(problem: &Problem, pair: &KeepOut) -> String {
-    let length = Quantity::Position(JointKind::Prismatic);
     let sphere = |sphere: &Sphere| {
         let body = match sphere.joint {
             Some(joint) => &problem.robot.joints()[joint].body.name,
@@ -257,7 +228,7 @@ fn keep_out(problem: &Problem, pair: &KeepOut) -> String {
         };
         match sphere.radius {
             0.0 => format!("a point of {body}"),
-            radius => format!("a sphere of {} on {body}", length.show(radius)),
+            radius => format!("a sphere of {} on {body}", show(Unit::Metre, radius)),
         }
     };
     let from = match &pair.from {
@@ -270,65 +241,46 @@ fn keep_out(problem: &Problem, pair: &KeepOut) -> String {
     format!("{}: {} from {from}", pair.name, sphere(&pair.sphere))
 }
 
-/// What a bound on the attitude is about where there are no angles.
-const ROTATION: &str = "rotation angle";
-
-/// What limits and weights on the base attitude are about, and those on its rate.
-fn base_names(problem: &Problem) -> (Vec<String>, Vec<String>) {
-    let angles: &[&str] = &["roll", "pitch", "yaw"];
-    let (attitude, rate) = match (problem.robot.plane(), problem.attitude.is_angles()) {
-        (Some(_), _) => (&["angle"][..], &["angle"][..]),
-        (None, true) => (angles, angles),
-        (None, false) => (&[ROTATION][..], &["x", "y", "z"][..]),
+/// Names of the components that limits and weights of that kind have.
+fn component_names(problem: &Problem, kind: ComponentKind) -> Vec<String> {
+    let planar = problem.robot.plane().is_some();
+    let names: &[&str] = match kind {
+        ComponentKind::Joint => {
+            let joints = problem.robot.joints().iter();
+            return joints.map(|joint| joint.name.clone()).collect();
+        }
+        ComponentKind::BaseAttitude if problem.has_rotation_angle() => &["rotation angle"],
+        ComponentKind::BaseRate if problem.has_rotation_angle() => &["x", "y", "z"],
+        ComponentKind::BaseAttitude | ComponentKind::BaseRate if planar => &["angle"],
+        ComponentKind::BaseAttitude | ComponentKind::BaseRate => &["roll", "pitch", "yaw"],
+        ComponentKind::BasePosition if planar => &["x", "y"],
+        ComponentKind::BasePosition => &["x", "y", "z"],
     };
-    let owned = |names: &[&str]| names.iter().map(|name| name.to_string()).collect();
-    (owned(attitude), owned(rate))
+    names.iter().map(|name| name.to_string()).collect()
 }
 
 fn cost(lines: &mut Lines, problem: &Problem) {
     let cost = &problem.cost;
-    let joints: Vec<String> = problem
-        .robot
-        .joints()
-        .iter()
-        .map(|joint| joint.name.clone())
+    let weighed = |entry: &CostEntry<&Vec<f64>>| entry.weights.iter().any(|w| *w != 0.0);
+    let mut terms: Vec<String> = cost
+        .entries()
+        .filter(weighed)
+        .map(|entry| {
+            let shown: Vec<String> = entry.weights.iter().map(|w| rounded(*w)).collect();
+            let term = cost_term(problem, entry.id);
+            match by_name(&component_names(problem, entry.components), &shown) {
+                weight if weight.contains(' ') => format!("({weight}) {term}"),
+                weight => format!("{weight} {term}"),
+            }
+        })
         .collect();
-    let (angles, axes) = base_names(problem);
-    let turned = angles[0] == ROTATION;
-    let (attitude, rate) = if turned {
-        ("φ(t_f)²", "∫‖ω‖²")
-    } else {
-        ("‖η(t_f)‖²", "∫‖η̇‖²")
-    };
-    let lengths = ["x", "y", "z"].map(String::from);
-    let mut terms: Vec<String> = [
-        (attitude, &cost.final_base_attitude, &angles[..]),
-        (
-            "‖Δζ(t_f)‖²",
-            &cost.final_base_position,
-            &lengths[..cost.final_base_position.len()],
-        ),
-        (rate, &cost.base_rate, &axes),
-        ("∫‖θ̇‖²", &cost.joint_rate, &joints),
-        ("∫‖u‖²", &cost.control, &joints),
-        ("∫‖τ‖²", &cost.torque, &joints),
-    ]
-    .into_iter()
-    .filter(|(_, weights, _)| weights.iter().any(|weight| *weight != 0.0))
-    .map(|(term, weights, names)| {
-        let shown: Vec<String> = weights.iter().map(|weight| rounded(*weight)).collect();
-        match by_name(names, &shown) {
-            weight if weight.contains(' ') => format!("({weight}) {term}"),
-            weight => format!("{weight} {term}"),
-        }
-    })
-    .collect();
     if cost.duration > 0.0 {
-        terms.push(format!("{} t_f", rounded(cost.duration)));
+        let term = cost_term(problem, CostId::Duration);
+        terms.push(format!("{} {term}", rounded(cost.duration)));
     }
     if cost.rate_matrix.is_some() {
-        let rate = if turned { "ω" } else { "η̇" };
-        terms.push(format!("∫[{rate}, θ̇]ᵀΛ[{rate}, θ̇] with the full matrix"));
+        let term = cost_term(problem, CostId::RateMatrix);
+        terms.push(format!("{term} with the full matrix"));
     }
     lines.add(
         "cost J",
@@ -338,6 +290,24 @@ fn cost(lines: &mut Lines, problem: &Problem) {
             terms.join(" + ")
         },
     );
+}
+
+/// A term of the cost as a formula.
+fn cost_term(problem: &Problem, id: CostId) -> &'static str {
+    let turned = problem.has_rotation_angle();
+    match id {
+        CostId::FinalBaseAttitude if turned => "φ(t_f)²",
+        CostId::FinalBaseAttitude => "‖η(t_f)‖²",
+        CostId::FinalBasePosition => "‖Δζ(t_f)‖²",
+        CostId::BaseRate if turned => "∫‖ω‖²",
+        CostId::BaseRate => "∫‖η̇‖²",
+        CostId::JointRate => "∫‖θ̇‖²",
+        CostId::Control => "∫‖u‖²",
+        CostId::Torque => "∫‖τ‖²",
+        CostId::Duration => "t_f",
+        CostId::RateMatrix if turned => "∫[ω, θ̇]ᵀΛ[ω, θ̇]",
+        CostId::RateMatrix => "∫[η̇, θ̇]ᵀΛ[η̇, θ̇]",
+    }
 }
 
 fn mesh(lines: &mut Lines, problem: &Problem) {
@@ -374,9 +344,10 @@ fn straight(problem: &Problem) -> String {
     } else {
         ""
     };
-    let attitude = match problem.robot.plane() {
-        None if !problem.attitude.is_angles() => rotation(problem.attitude, &found.base_attitude),
-        _ => list(&found.base_attitude, 1f64.to_degrees(), 5) + "°",
+    let attitude = if problem.has_rotation_angle() {
+        rotation(problem.attitude, &found.base_attitude)
+    } else {
+        list(&found.base_attitude, 1f64.to_degrees(), 5) + "°"
     };
     format!(
         "straight-line base motion{to}: {attitude}, {} cm",

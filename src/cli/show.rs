@@ -1,48 +1,29 @@
 //! Quantities in degrees and centimetres, short.
 
-use crate::dynamics::JointKind;
 use crate::ocp::Interval;
+use crate::problem::Unit;
 
-/// What a number is, and so the unit a person reads it in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
-    /// A position, rad or m.
-    Position(JointKind),
-    /// A rate, rad/s or m/s.
-    Rate(JointKind),
-    /// An acceleration, rad/s² or m/s²: as in the file.
-    Acceleration(JointKind),
-    /// A torque or force: as in the file.
-    Effort(JointKind),
+/// A value with its unit.
+pub(super) fn show(unit: Unit, value: f64) -> String {
+    let (factor, unit) = match unit {
+        Unit::Metre => (100.0, " cm"),
+        Unit::MetrePerSecond => (100.0, " cm/s"),
+        Unit::Radian | Unit::RadianPerSecond => unit.readable(),
+        // As in the file.
+        unit => return format!("{} {unit}", rounded(value)),
+    };
+    format!("{}{unit}", rounded(factor * value))
 }
 
-impl Quantity {
-    /// A value with its unit.
-    pub(super) fn show(self, value: f64) -> String {
-        use JointKind::{Prismatic, Revolute};
-        let (factor, unit) = match self {
-            Self::Position(Revolute) => (1f64.to_degrees(), "°"),
-            Self::Position(Prismatic) => (100.0, " cm"),
-            Self::Rate(Revolute) => (1f64.to_degrees(), "°/s"),
-            Self::Rate(Prismatic) => (100.0, " cm/s"),
-            Self::Acceleration(Revolute) => (1.0, " rad/s²"),
-            Self::Acceleration(Prismatic) => (1.0, " m/s²"),
-            Self::Effort(Revolute) => (1.0, " N·m"),
-            Self::Effort(Prismatic) => (1.0, " N"),
-        };
-        format!("{}{unit}", rounded(factor * value))
-    }
-
-    /// An interval with its unit.
-    pub(super) fn show_interval(self, interval: &Interval) -> String {
-        let Interval { lower, upper } = *interval;
-        match (lower.is_finite(), upper.is_finite()) {
-            (false, false) => "none".into(),
-            (true, true) if lower == -upper => format!("±{}", self.show(upper)),
-            (true, true) => format!("{} to {}", self.show(lower), self.show(upper)),
-            (true, false) => format!("from {}", self.show(lower)),
-            (false, true) => format!("up to {}", self.show(upper)),
-        }
+/// An interval with its unit.
+pub(super) fn show_interval(unit: Unit, interval: &Interval) -> String {
+    let Interval { lower, upper } = *interval;
+    match (lower.is_finite(), upper.is_finite()) {
+        (false, false) => "none".into(),
+        (true, true) if lower == -upper => format!("±{}", show(unit, upper)),
+        (true, true) => format!("{} to {}", show(unit, lower), show(unit, upper)),
+        (true, false) => format!("from {}", show(unit, lower)),
+        (false, true) => format!("up to {}", show(unit, upper)),
     }
 }
 

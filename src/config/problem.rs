@@ -6,7 +6,7 @@ use super::item::{Item, Section};
 use super::robot::{self, Robot, RobotFile};
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, tables};
-use crate::problem::{Problem, ProblemError};
+use crate::problem::{Problem, ProblemBuilder, ProblemError};
 use std::path::Path;
 
 /// A problem and the files it was read from.
@@ -74,8 +74,9 @@ impl ProblemFile {
         let source = files.document(path, "a problem file")?;
         let mut document = source.document;
         overrides.apply(&mut document)?;
-        let (problem, robot, note) = read(&document, path, files)?;
-        let file = Self {
+        let (builder, robot, note) = read(&document, path, files)?;
+        let problem = builder.build().map_err(|error| blame(&document, error))?;
+        Ok(Self {
             notes: robot.notes(&problem).into_iter().chain(note).collect(),
             end_effector: robot.end_effector(),
             problem,
@@ -84,43 +85,7 @@ impl ProblemFile {
             overrides: overrides.flags(),
             robot: robot.file,
             document,
-        };
-        file.problem.validate().map_err(|error| file.blame(error))?;
-        file.refuse_singular()?;
-        Ok(file)
-    }
-
-    /// Refuses a start or goal at which joints can move without moving any mass, as with bodies
-    /// that have none: no torque belongs to a motion there.
-    fn refuse_singular(&self) -> Result<(), ConfigError> {
-        let Problem { robot, task, .. } = &self.problem;
-        let mut ends = vec![(
-            "task.initial.joints".to_owned(),
-            task.initial_joints.clone(),
-        )];
-        for (i, point) in task.way_points.iter().enumerate() {
-            if let Some(joints) = point.joints.iter().copied().collect() {
-                ends.push((format!("task.way_points[{i}].joints"), joints));
-            }
-        }
-        if !task.free_joints.contains(&true) {
-            ends.push(("task.final.joints".to_owned(), task.final_joints.clone()));
-        }
-        for (key, joints) in ends {
-            if let Some(joint) = robot.inert_joint(&joints) {
-                return Err(self.blame(ProblemError {
-                    key,
-                    found: format!(
-                        "joint '{}' can move there without moving any mass",
-                        robot.joints()[joint].name
-                    ),
-                    expected: "positions at which bodies without mass do not make joints \
-                               interchangeable"
-                        .into(),
-                }));
-            }
-        }
-        Ok(())
+        })
     }
 
     /// Where a key (`limits.joint_velocity[1]`) is given, or the nearest table around it.
@@ -130,17 +95,22 @@ impl ProblemFile {
 
     /// An error of the problem, with the place of its key.
     pub fn blame(&self, error: ProblemError) -> ConfigError {
-        let ProblemError {
-            key,
-            found,
-            expected,
-        } = error;
-        ConfigError::Value {
-            place: self.place(&key),
-            key,
-            found,
-            expected,
-        }
+        blame(&self.document, error)
+    }
+}
+
+/// An error of the problem that `document` describes, with the place of its key.
+fn blame(document: &Node, error: ProblemError) -> ConfigError {
+    let ProblemError {
+        key,
+        found,
+        expected,
+    } = error;
+    ConfigError::Value {
+        place: document.locate(&key),
+        key,
+        found,
+        expected,
     }
 }
 
@@ -149,7 +119,7 @@ fn read(
     document: &Node,
     path: &Path,
     files: Files<'_>,
-) -> Result<(Problem, Robot, Option<String>), ConfigError> {
+) -> Result<(ProblemBuilder, Robot, Option<String>), ConfigError> {
     let root = Item::root(document).section(&[
         "schema", "name", "robot", "base", "task", "limits", "cost", "mesh", "solver",
     ])?;
@@ -180,24 +150,24 @@ fn read(
 
     let expected = "a table with duration, initial and final";
     let task = tables::task(root.require("task", expected)?, &joints, &angles, &lengths)?;
-    let mut problem = Problem::new(&name, model, task.duration.lower, &[], &[]);
-    problem.task = task;
+    let mut problem = ProblemBuilder::of_task(&name, model, task);
     problem.set_attitude(attitude.unwrap_or_default());
-    let whole = problem.attitude_sizes().1 < angles.names.len();
-    let base = tables::BaseComponents {
-        attitude: if whole {
+    let rotation = problem.has_rotation_angle();
+    let components = tables::EveryComponent {
+        joint: joints,
+        base_attitude: if rotation {
             Components::rotation_angle()
         } else {
             angles.clone()
         },
-        rate: if whole { Components::axes() } else { angles },
-        position: lengths,
+        base_rate: if rotation { Components::axes() } else { angles },
+        base_position: lengths,
     };
     if let Some(item) = root.get("limits") {
-        tables::limits(item, &mut problem.limits, &robot, &joints, &base)?;
+        tables::limits(item, &mut problem.limits, &robot, &components)?;
     }
     if let Some(item) = root.get("cost") {
-        tables::cost(item, &mut problem.cost, &joints, &base)?;
+        tables::cost(item, &mut problem.cost, &components)?;
     }
     if let Some(item) = root.get("mesh") {
         tables::mesh(item, &mut problem.mesh)?;

@@ -10,7 +10,7 @@ use super::values::Components;
 use super::way_point;
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
-use crate::problem::{Cost, Limits, Momentum, Task};
+use crate::problem::{ComponentKind, Cost, CostId, LimitId, Limits, Momentum, Task};
 use crate::refine::{self, Method};
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish.
@@ -95,11 +95,23 @@ fn duration(item: &Item<'_>) -> Result<Interval, ConfigError> {
     Ok(Interval::new(min, max))
 }
 
-/// What limits and costs on the base have one component of.
-pub(super) struct BaseComponents {
-    pub attitude: Components,
-    pub rate: Components,
-    pub position: Components,
+/// What limits and costs may have one component of.
+pub(super) struct EveryComponent {
+    pub joint: Components,
+    pub base_attitude: Components,
+    pub base_rate: Components,
+    pub base_position: Components,
+}
+
+impl EveryComponent {
+    fn of(&self, kind: ComponentKind) -> &Components {
+        match kind {
+            ComponentKind::Joint => &self.joint,
+            ComponentKind::BaseAttitude => &self.base_attitude,
+            ComponentKind::BaseRate => &self.base_rate,
+            ComponentKind::BasePosition => &self.base_position,
+        }
+    }
 }
 
 /// `[limits]`.
@@ -107,32 +119,17 @@ pub(super) fn limits(
     item: &Item<'_>,
     limits: &mut Limits,
     robot: &Robot,
-    joints: &Components,
-    base: &BaseComponents,
+    components: &EveryComponent,
 ) -> Result<(), ConfigError> {
-    const KEEP_OUT: &str = "keep_out";
-    let mut keys = [
-        ("joint_position", &mut limits.joint_position, joints),
-        ("joint_velocity", &mut limits.joint_velocity, joints),
-        ("control", &mut limits.control, joints),
-        ("torque", &mut limits.torque, joints),
-        ("base_attitude", &mut limits.base_attitude, &base.attitude),
-        ("base_rate", &mut limits.base_rate, &base.rate),
-        (
-            "final_base_attitude",
-            &mut limits.final_base_attitude,
-            &base.attitude,
-        ),
-    ];
-    let mut known = keys.each_ref().map(|(name, ..)| *name).to_vec();
-    known.push(KEEP_OUT);
+    let known = limits.entries().map(|entry| entry.id);
+    let known: Vec<_> = known.chain([LimitId::KeepOut]).map(LimitId::name).collect();
     let section = item.section(&known)?;
-    for (name, bounds, components) in &mut keys {
-        if let Some(item) = section.get(name) {
-            **bounds = components.bounds(item, bounds)?;
+    for entry in limits.entries_mut() {
+        if let Some(item) = section.get(entry.id.name()) {
+            *entry.bounds = components.of(entry.components).bounds(item, entry.bounds)?;
         }
     }
-    if let Some(item) = section.get(KEEP_OUT) {
+    if let Some(item) = section.get(LimitId::KeepOut.name()) {
         limits.keep_out = keep_out::read(item, robot)?;
     }
     Ok(())
@@ -142,39 +139,21 @@ pub(super) fn limits(
 pub(super) fn cost(
     item: &Item<'_>,
     cost: &mut Cost,
-    joints: &Components,
-    base: &BaseComponents,
+    components: &EveryComponent,
 ) -> Result<(), ConfigError> {
-    const MATRIX: &str = "rate_matrix";
-    const DURATION_WEIGHT: &str = "duration";
-    let mut keys = [
-        (
-            "final_base_attitude",
-            &mut cost.final_base_attitude,
-            &base.attitude,
-        ),
-        (
-            "final_base_position",
-            &mut cost.final_base_position,
-            &base.position,
-        ),
-        ("base_rate", &mut cost.base_rate, &base.rate),
-        ("joint_rate", &mut cost.joint_rate, joints),
-        ("control", &mut cost.control, joints),
-        ("torque", &mut cost.torque, joints),
-    ];
-    let mut known = keys.each_ref().map(|(name, ..)| *name).to_vec();
-    known.extend([DURATION_WEIGHT, MATRIX]);
+    let known = cost.entries().map(|entry| entry.id);
+    let others = [CostId::Duration, CostId::RateMatrix];
+    let known: Vec<_> = known.chain(others).map(CostId::name).collect();
     let section = item.section(&known)?;
-    for (name, weights, components) in &mut keys {
-        if let Some(item) = section.get(name) {
-            **weights = components.weights(item)?;
+    for entry in cost.entries_mut() {
+        if let Some(item) = section.get(entry.id.name()) {
+            *entry.weights = components.of(entry.components).weights(item)?;
         }
     }
-    if let Some(item) = section.get(DURATION_WEIGHT) {
+    if let Some(item) = section.get(CostId::Duration.name()) {
         cost.duration = item.number("a finite weight, zero or above")?;
     }
-    if let Some(item) = section.get(MATRIX) {
+    if let Some(item) = section.get(CostId::RateMatrix.name()) {
         cost.rate_matrix = Some(matrix(item)?);
     }
     Ok(())

@@ -27,8 +27,7 @@ impl Planner {
                 self.plan_with(problem, start, monitor)
             }
             Method::Collocation(method) => {
-                let mut problem = problem.clone();
-                problem.mesh.method = method;
+                let problem = problem.edited(|problem| problem.mesh.method = method)?;
                 self.plan_with(&problem, start, monitor)
             }
             Method::BaseRate => plan_base_rate(self, problem, start, monitor),

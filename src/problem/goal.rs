@@ -1,8 +1,5 @@
 //! Task-space goals: where the end effector is to be at t_f or at a way-point.
 
-use super::{Problem, ProblemError, count, error, indexed};
-use crate::dynamics::Model;
-
 /// The frame a task-space goal is given in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GoalFrame {
@@ -50,42 +47,5 @@ impl EndEffectorGoal {
             orientation: None,
             orientation_tolerance: 0.0,
         }
-    }
-
-    /// Checks the goal of `robot` that stands under `key`.
-    pub(super) fn validate(&self, key: &str, robot: &Model) -> Result<(), ProblemError> {
-        let (angles, lengths) = Problem::base_sizes(robot);
-        if robot.end_effector().is_none() {
-            let expected = "a robot with an end effector";
-            return Err(error(key, "a goal for the end effector", expected));
-        }
-        if self.position.is_none() && self.orientation.is_none() {
-            return Err(error(key, "neither", "a position, an orientation or both"));
-        }
-        for (name, values, size, what) in [
-            ("position", &self.position, lengths, "base lengths"),
-            ("orientation", &self.orientation, angles, "base angles"),
-        ] {
-            let key = format!("{key}.{name}");
-            if let Some(values) = values {
-                count(&key, values.len(), size, what)?;
-                for (i, value) in values.iter().enumerate() {
-                    if !value.is_finite() {
-                        return Err(error(indexed(&key, i, size), value, "a finite number"));
-                    }
-                }
-            }
-        }
-        let room = self.position_tolerance;
-        if !(room.is_finite() && room >= 0.0) {
-            let key = format!("{key}.position_tolerance");
-            return Err(error(key, room, "a finite length, m, zero or above"));
-        }
-        let room = self.orientation_tolerance;
-        if !(0.0..1.5).contains(&room) {
-            let key = format!("{key}.orientation_tolerance");
-            return Err(error(key, room, "an angle from 0 to below 1.5 rad"));
-        }
-        Ok(())
     }
 }

@@ -34,7 +34,38 @@ pub enum LimitId {
 impl LimitId {
     /// The key in the problem file (`limits.joint_position`, `task.way_points[0]`).
     pub fn key(self) -> Cow<'static, str> {
-        Cow::Borrowed(match self {
+        match self {
+            Self::WayPoint(index) => format!("{}[{index}]", self.list()).into(),
+            _ => self.list().into(),
+        }
+    }
+
+    /// The last part of the key, without an index (`joint_position`, `way_points`).
+    pub fn name(self) -> &'static str {
+        let key = self.list();
+        key.rsplit_once('.').map_or(key, |(_, name)| name)
+    }
+
+    /// What a person calls it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::JointPosition => "joint position",
+            Self::JointVelocity => "joint velocity",
+            Self::Control => "control",
+            Self::Torque => "torque",
+            Self::BaseAttitude => "base attitude",
+            Self::BaseRate => "base rate",
+            Self::FinalBaseAttitude => "final attitude",
+            Self::KeepOut => "kept apart",
+            Self::FinalJoints => "final joint position",
+            Self::EndEffector => "end effector",
+            Self::WayPoint(_) => "way-point",
+        }
+    }
+
+    /// The key without an index.
+    fn list(self) -> &'static str {
+        match self {
             Self::JointPosition => "limits.joint_position",
             Self::JointVelocity => "limits.joint_velocity",
             Self::Control => "limits.control",
@@ -45,8 +76,8 @@ impl LimitId {
             Self::KeepOut => "limits.keep_out",
             Self::FinalJoints => "task.final.joints",
             Self::EndEffector => "task.final.end_effector",
-            Self::WayPoint(index) => return Cow::Owned(format!("task.way_points[{index}]")),
-        })
+            Self::WayPoint(_) => "task.way_points",
+        }
     }
 
     /// The limit that it belongs to: that along the path, for the same limit at t_f.
@@ -82,6 +113,7 @@ mod tests {
         assert_eq!(LimitId::JointPosition.key(), "limits.joint_position");
         assert_eq!(LimitId::FinalJoints.key(), "task.final.joints");
         assert_eq!(LimitId::WayPoint(2).to_string(), "task.way_points[2]");
+        assert_eq!(LimitId::WayPoint(2).name(), "way_points");
     }
 
     #[test]

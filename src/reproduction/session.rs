@@ -3,7 +3,7 @@
 use crate::config::ConfigError;
 use crate::nlp::Control;
 use crate::planner::{Event, Method, Plan, PlanError, Planner, Status};
-use crate::problem::Problem;
+use crate::problem::{Problem, ProblemError};
 use crate::refine::Start;
 use crate::report::OutputError;
 use crate::simulate::SimulateError;
@@ -18,6 +18,9 @@ pub enum ReproductionError {
     /// A shipped problem cannot be read.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// A problem made from a shipped one cannot be.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
     /// A plan cannot be made.
     #[error("{title}: {source}")]
     Plan {

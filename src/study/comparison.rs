@@ -2,7 +2,7 @@
 
 use crate::nlp::Control;
 use crate::planner::{Event, Method, Plan, PlanError, Planner, Status};
-use crate::problem::Problem;
+use crate::problem::{Problem, ProblemError};
 use crate::refine;
 
 /// What one planner made of the task.
@@ -38,19 +38,25 @@ impl Comparison {
         monitor: &mut dyn FnMut(Method, &Event<'_>) -> Control,
     ) -> Result<Self, PlanError> {
         let mut found = Self::default();
-        let mut in_joints = problem.clone();
+        let mut in_joints = Ok(problem.clone());
         for method in Method::ALL {
             if found.entries.len() == 1 && problem.task.end_effector.is_some() {
-                let note = in_joint_space(&mut in_joints, &found.entries[0]);
-                found.notes.extend(note);
+                if let Some(joints) = joints_reached(&found.entries[0]) {
+                    in_joints = in_joint_space(problem, joints);
+                    found.notes.push(in_joint_space_note());
+                }
             }
             let task = if method.optimises() {
-                problem
+                Ok(problem)
             } else {
-                &in_joints
+                in_joints.as_ref()
             };
             let mut told = |event: &Event<'_>| monitor(method, event);
-            let plan = match Planner::new().plan_by(method, task, None, &mut told) {
+            let plan = match task {
+                Ok(task) => Planner::new().plan_by(method, task, None, &mut told),
+                Err(error) => Err(error.clone().into()),
+            };
+            let plan = match plan {
                 Ok(plan) => Ok(plan),
                 Err(PlanError::Problem(error)) if !method.optimises() => Err(error.to_string()),
                 Err(error) => return Err(error),
@@ -71,20 +77,28 @@ impl Comparison {
     }
 }
 
-/// Gives the planners that know joint goals alone the joint positions at which A-RPM ended; says
-/// so where that could be done.
-fn in_joint_space(problem: &mut Problem, adaptive: &Entry) -> Option<String> {
+/// The joint positions at which A-RPM ended, where it solved the task.
+fn joints_reached(adaptive: &Entry) -> Option<&[f64]> {
     let plan = adaptive.plan.as_ref().ok()?;
-    if plan.status != Status::Solved {
-        return None;
-    }
-    problem.task.final_joints = plan.trajectory.joint_position.last()?.clone();
-    problem.task.free_joints.fill(false);
-    problem.task.end_effector = None;
-    Some(format!(
+    let last = plan.trajectory.joint_position.last()?;
+    (plan.status == Status::Solved).then_some(last)
+}
+
+/// `problem` with `joints` as its goal, for the planners that know joint goals alone.
+fn in_joint_space(problem: &Problem, joints: &[f64]) -> Result<Problem, ProblemError> {
+    problem.edited(|problem| {
+        let task = &mut problem.task;
+        task.final_joints = joints.to_vec();
+        task.free_joints.fill(false);
+        task.end_effector = None;
+    })
+}
+
+fn in_joint_space_note() -> String {
+    format!(
         "The task is a goal for the end effector. Planners in joint space were given the joint \
          positions at which {} ends; with another base motion they leave the end effector \
          elsewhere.",
         Method::Collocation(refine::Method::Adaptive).name()
-    ))
+    )
 }

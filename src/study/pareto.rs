@@ -6,7 +6,7 @@
 
 use crate::nlp::Control;
 use crate::planner::{Event, Plan, PlanError, Planner, Status};
-use crate::problem::Problem;
+use crate::problem::{ComponentKind, Cost, CostEntry, Problem, ProblemError};
 use crate::refine::Start;
 use crate::system::cost_terms;
 
@@ -109,7 +109,7 @@ impl<'a> Front<'a> {
         from: Option<usize>,
         monitor: &mut dyn FnMut(f64, &Event<'_>) -> Control,
     ) -> Result<FrontPoint, PlanError> {
-        let problem = scaled(self.problem, factor);
+        let problem = scaled(self.problem, factor)?;
         let usable = |status| status == Status::Solved || status == Status::NotConverged;
         let start = from
             .map(|k| &self.points[k].plan)
@@ -143,48 +143,44 @@ pub fn factors(from: f64, to: f64, count: u16) -> Vec<f64> {
 
 /// `problem` with weights on both sides of its cost, and what was added where there were none.
 pub fn balanced(problem: &Problem) -> (Problem, Vec<String>) {
-    let mut problem = problem.clone();
     let mut notes = Vec::new();
-    let none = |weights: &[&Vec<f64>]| weights.iter().all(|w| w.iter().all(|w| *w == 0.0));
-    let cost = &mut problem.cost;
-    let matrix = cost.rate_matrix.is_some();
-    if !matrix
-        && none(&[
-            &cost.final_base_attitude,
-            &cost.final_base_position,
-            &cost.base_rate,
-        ])
-    {
-        cost.base_rate.fill(1.0);
-        notes.push("The cost has no weight on the base; ∫‖η̇‖² was added.".into());
-    }
-    if !matrix && none(&[&cost.joint_rate, &cost.control, &cost.torque]) {
-        cost.control.fill(1.0);
-        notes.push("The cost has no weight on the joints; ∫‖u‖² was added.".into());
-    }
-    (problem, notes)
+    let none = |cost: &Cost, on_base: bool| {
+        let side = |entry: &CostEntry<_>| entry.components.is_on_base() == on_base;
+        let mut weights = cost.entries().filter(side).flat_map(|entry| entry.weights);
+        cost.rate_matrix.is_none() && weights.all(|weight| *weight == 0.0)
+    };
+    let problem = problem.edited(|problem| {
+        let cost = &mut problem.cost;
+        if none(cost, true) {
+            cost.base_rate.fill(1.0);
+            notes.push("The cost has no weight on the base; ∫‖η̇‖² was added.".into());
+        }
+        if none(cost, false) {
+            cost.control.fill(1.0);
+            notes.push("The cost has no weight on the joints; ∫‖u‖² was added.".into());
+        }
+    });
+    (problem.expect("weights of one are valid"), notes)
 }
 
 /// The problem with the weights on the base times `factor`; Λ as a matrix from both sides, with its
 /// root on the base's rates, so that it stays semidefinite.
-fn scaled(problem: &Problem, factor: f64) -> Problem {
-    let mut problem = problem.clone();
-    let cost = &mut problem.cost;
-    let angles = cost.base_rate.len();
-    for weights in [
-        &mut cost.final_base_attitude,
-        &mut cost.final_base_position,
-        &mut cost.base_rate,
-    ] {
-        weights.iter_mut().for_each(|weight| *weight *= factor);
-    }
-    if let Some(matrix) = &mut cost.rate_matrix {
-        let side = |i: usize| if i < angles { factor.sqrt() } else { 1.0 };
-        for (i, row) in matrix.iter_mut().enumerate() {
-            for (j, value) in row.iter_mut().enumerate() {
-                *value *= side(i) * side(j);
+fn scaled(problem: &Problem, factor: f64) -> Result<Problem, ProblemError> {
+    let angles = problem.component_count(ComponentKind::BaseRate);
+    problem.edited(|problem| {
+        let cost = &mut problem.cost;
+        for entry in cost.entries_mut().filter(|e| e.components.is_on_base()) {
+            for weight in entry.weights {
+                *weight *= factor;
             }
         }
-    }
-    problem
+        if let Some(matrix) = &mut cost.rate_matrix {
+            let side = |i: usize| if i < angles { factor.sqrt() } else { 1.0 };
+            for (i, row) in matrix.iter_mut().enumerate() {
+                for (j, value) in row.iter_mut().enumerate() {
+                    *value *= side(i) * side(j);
+                }
+            }
+        }
+    })
 }

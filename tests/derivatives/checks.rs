@@ -229,7 +229,6 @@ pub fn check_problem(problem: &Problem, mesh: Mesh) {
 }
 
 pub fn check_problem_with(problem: &Problem, mesh: Mesh, cancels: impl Fn(&str, &str) -> bool) {
-    problem.validate().unwrap();
     match FreeFloating::planar(problem) {
         Some(planar) => check_with(&planar, mesh, cancels),
         None => check_with(&FreeFloating::spatial(problem), mesh, cancels),

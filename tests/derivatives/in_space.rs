@@ -13,7 +13,7 @@ use ffsm_ipopt::system::FreeFloating;
 #[test]
 fn a_system_that_drifts_and_tumbles() {
     for robot in [problems::two_link(), trees::chain(3, 6)] {
-        let mut problem = with_goal(loaded(robot), GoalFrame::Inertial);
+        let mut problem = with_goal(loaded(robot), GoalFrame::Inertial).into_builder();
         let momentum = &mut problem.task.initial_momentum;
         momentum
             .linear
@@ -25,7 +25,7 @@ fn a_system_that_drifts_and_tumbles() {
             .iter_mut()
             .enumerate()
             .for_each(|(i, l)| *l = 0.2 + 0.1 * i as f64);
-        check_problem(&problem, Mesh::uniform(1, 2).unwrap());
+        check_problem(&problem.build().unwrap(), Mesh::uniform(1, 2).unwrap());
     }
 }
 
@@ -57,9 +57,12 @@ fn attitude_by_quaternion_and_by_rodrigues_parameters() {
     for attitude in [SpatialAttitude::Quaternion, SpatialAttitude::Mrp] {
         let arm = described(loaded(trees::chain(3, 4)), attitude);
         check_problem(&arm, Mesh::uniform(1, 2).unwrap());
-        let mut tumbling = with_goal(arm, GoalFrame::Start);
-        tumbling.task.initial_momentum.angular = vec![0.2, -0.3, 0.4];
-        tumbling.limits.final_base_attitude = vec![Interval::symmetric(1.2)];
+        let tumbling = with_goal(arm, GoalFrame::Start)
+            .edited(|tumbling| {
+                tumbling.task.initial_momentum.angular = vec![0.2, -0.3, 0.4];
+                tumbling.limits.final_base_attitude = vec![Interval::symmetric(1.2)];
+            })
+            .unwrap();
         check_problem(&tumbling, Mesh::uniform(1, 2).unwrap());
         // The limits on the rotation angle give way as one.
         let system = FreeFloating::spatial(&tumbling);

@@ -8,31 +8,33 @@ use ffsm_ipopt::problem::{EndEffectorGoal, GoalFrame, Problem};
 /// Every weight and every limit at work.
 pub fn loaded(robot: Model) -> Problem {
     let n = robot.joint_count();
-    let mut problem = Problem::new("loaded", robot, 3.0, &vec![0.1; n], &vec![0.5; n]);
-    let (angles, lengths) = Problem::base_sizes(&problem.robot);
+    let (angles, lengths) = Problem::base_sizes(&robot);
+    let mut problem = Problem::builder("loaded", robot, 3.0, &vec![0.1; n], &vec![0.5; n]);
     problem.cost.final_base_attitude = vec![1.3; angles];
     problem.cost.final_base_position = vec![0.8; lengths];
     problem.cost.base_rate = vec![0.6; angles];
     problem.cost.joint_rate = vec![0.2; n];
     problem.cost.control = vec![0.1; n];
     problem.limits.base_rate = vec![Interval::symmetric(0.6); angles];
-    problem
+    problem.build().unwrap()
 }
 
 /// The same with the attitude described by `attitude`, its limits at work too.
-pub fn described(mut problem: Problem, attitude: SpatialAttitude) -> Problem {
+pub fn described(problem: Problem, attitude: SpatialAttitude) -> Problem {
+    let mut problem = problem.into_builder();
     problem.set_attitude(attitude);
     problem.cost.final_base_attitude = vec![1.3];
     problem.cost.base_rate = vec![0.6, 0.5, 0.4];
     problem.limits.base_rate = vec![Interval::symmetric(0.6); 3];
     problem.limits.base_attitude = vec![Interval::symmetric(0.9)];
     problem.limits.final_base_attitude = vec![Interval::symmetric(0.4)];
-    problem
+    problem.build().unwrap()
 }
 
-pub fn with_goal(mut problem: Problem, frame: GoalFrame) -> Problem {
+pub fn with_goal(problem: Problem, frame: GoalFrame) -> Problem {
     let last = problem.robot.joint_count() - 1;
     let mount = Placement::from_xyz_rpy([0.3, 0.1, -0.2], [0.4, -0.3, 0.8]);
+    let mut problem = problem.into_builder();
     problem.robot = problem.robot.with_end_effector(Some(last), mount);
     let (angles, lengths) = Problem::base_sizes(&problem.robot);
     problem.task.free_joints = vec![true; last + 1];
@@ -45,5 +47,5 @@ pub fn with_goal(mut problem: Problem, frame: GoalFrame) -> Problem {
     });
     problem.cost.duration = 0.3;
     problem.task.duration = Interval::new(1.0, 5.0);
-    problem
+    problem.build().unwrap()
 }

@@ -23,15 +23,19 @@ fn task_space_goals() {
 #[test]
 fn way_points_in_joint_and_task_space() {
     for robot in [problems::two_link(), trees::chain(3, 4)] {
-        let mut problem = with_goal(loaded(robot), GoalFrame::Start);
-        problem.task.initial_momentum.linear[0] = 0.4;
+        let problem = with_goal(loaded(robot), GoalFrame::Start);
         let n = problem.robot.joint_count();
         let goal = problem.task.end_effector.clone().unwrap();
         let mut stop = WayPoint::joints(Moment::Fraction(0.6), &vec![0.3; n]);
         stop.joints[0] = None;
         stop.joint_rates[0] = Some(0.0);
         let pose = WayPoint::pose(Moment::Fraction(0.3), n, goal);
-        problem.task.way_points = vec![pose, stop];
+        let problem = problem
+            .edited(|problem| {
+                problem.task.initial_momentum.linear[0] = 0.4;
+                problem.task.way_points = vec![pose, stop];
+            })
+            .unwrap();
         let mesh = Mesh::new(vec![0.0, 0.3, 0.6, 1.0], &[1, 1, 1]).unwrap();
         check_problem(&problem, mesh.clone());
         if problem.robot.plane().is_some() {
@@ -49,7 +53,7 @@ fn pairs_kept_apart() {
         radius,
     };
     for robot in [problems::two_link(), trees::chain(3, 8)] {
-        let mut problem = loaded(robot);
+        let problem = loaded(robot);
         let last = problem.robot.joint_count() - 1;
         let pair = |name: &str, from| KeepOut {
             name: name.into(),
@@ -57,12 +61,16 @@ fn pairs_kept_apart() {
             from,
         };
         let (center, half) = ([0.1, -0.2, 0.3], [0.6, 0.5, 0.4]);
-        problem.limits.keep_out = vec![
-            pair("off the base", Obstacle::Sphere(sphere(None, 0.5))),
-            pair("along the arm", Obstacle::Sphere(sphere(Some(0), 0.2))),
-            pair("off the box", Obstacle::Box { center, half }),
-        ];
-        problem.limits.torque = vec![Interval::symmetric(3.0); last + 1];
+        let problem = problem
+            .edited(|problem| {
+                problem.limits.keep_out = vec![
+                    pair("off the base", Obstacle::Sphere(sphere(None, 0.5))),
+                    pair("along the arm", Obstacle::Sphere(sphere(Some(0), 0.2))),
+                    pair("off the box", Obstacle::Box { center, half }),
+                ];
+                problem.limits.torque = vec![Interval::symmetric(3.0); last + 1];
+            })
+            .unwrap();
         // The first joint moves both bodies of this pair alike: in base axes its part cancels.
         let both_carried = |row: &str, column: &str| {
             row.starts_with("along the arm") && column.starts_with("joint 1 position")

@@ -108,7 +108,7 @@ fn structure_and_sweeps_agree() {
     robots.push(trees::planar(rng, Vector3::new(0.3, -0.5, 0.8)));
     robots.push(trees::chain(10, 2));
     for robot in robots {
-        let mut problem = loaded(robot);
+        let mut problem = loaded(robot).into_builder();
         let n = problem.robot.joint_count();
         let (angles, _) = Problem::base_sizes(&problem.robot);
         problem.limits.torque = vec![Interval::symmetric(3.0); n];
@@ -135,10 +135,9 @@ fn structure_and_sweeps_agree() {
             from: Obstacle::Sphere(sphere(None)),
         }];
         let mesh = || Mesh::uniform(1, 2).unwrap();
-        for tumbling in [false, true] {
-            if tumbling {
-                problem.task.initial_momentum.angular = vec![0.3; angles];
-            }
+        for tumbling in [0.0, 0.3] {
+            problem.task.initial_momentum.angular = vec![tumbling; angles];
+            let problem = problem.clone().build().unwrap();
             match FreeFloating::planar(&problem) {
                 Some(system) => {
                     compare(&system, mesh());

@@ -56,7 +56,7 @@ pub fn two_link_composite() -> (f64, f64, f64) {
 
 /// `table1-relaxed`: the published case without the bounds on the base attitude.
 pub fn relaxed() -> Problem {
-    let mut problem = Problem::new(
+    let mut problem = Problem::builder(
         "table1-relaxed",
         two_link(),
         20.0,
@@ -73,22 +73,26 @@ pub fn relaxed() -> Problem {
     cost.final_base_position = vec![1.0; 2];
     cost.base_rate = vec![0.6];
     cost.joint_rate = vec![0.2; 2];
-    problem
+    problem.build().unwrap()
 }
 
 /// `table1-smooth`: relaxed, with a weight on the control.
 pub fn smooth() -> Problem {
-    let mut problem = relaxed();
-    problem.name = "table1-smooth".into();
-    problem.cost.control = vec![0.1; 2];
-    problem
+    relaxed()
+        .edited(|problem| {
+            problem.name = "table1-smooth".into();
+            problem.cost.control = vec![0.1; 2];
+        })
+        .unwrap()
 }
 
 /// `table1`: as published, infeasible.
 pub fn published() -> Problem {
-    let mut problem = relaxed();
-    problem.name = "table1".into();
-    problem.limits.base_attitude = vec![Interval::symmetric(PI / 12.0)];
-    problem.limits.final_base_attitude = vec![Interval::symmetric(PI / 12.0)];
-    problem
+    relaxed()
+        .edited(|problem| {
+            problem.name = "table1".into();
+            problem.limits.base_attitude = vec![Interval::symmetric(PI / 12.0)];
+            problem.limits.final_base_attitude = vec![Interval::symmetric(PI / 12.0)];
+        })
+        .unwrap()
 }

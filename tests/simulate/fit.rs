@@ -8,8 +8,9 @@ use ffsm_ipopt::simulate::{Figures, Platform, Player};
 
 #[test]
 fn a_fit_finds_the_platform_that_was_measured() {
-    let mut problem = smooth();
-    problem.mesh.tolerance = 1e-3;
+    let problem = smooth()
+        .edited(|problem| problem.mesh.tolerance = 1e-3)
+        .unwrap();
     let plan = plan(&problem).unwrap();
     let player = Player::new(&problem, &plan.discretization, Platform::default()).unwrap();
     let unknown = |key: &str, range: [f64; 2]| Unknown {

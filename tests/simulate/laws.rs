@@ -16,13 +16,18 @@ use ffsm_ipopt::verify::mass_matrix::{BASE, MassMatrix};
 
 #[test]
 fn an_undisturbed_platform_reproduces_the_planned_base_motion() {
-    let mut tumbling = smooth();
-    tumbling.task.initial_momentum = Momentum {
-        linear: vec![0.02, -0.01],
-        angular: vec![0.01],
-    };
-    for mut problem in [relaxed(), smooth(), tumbling] {
-        problem.mesh.tolerance = 1e-5;
+    let tumbling = smooth()
+        .edited(|tumbling| {
+            tumbling.task.initial_momentum = Momentum {
+                linear: vec![0.02, -0.01],
+                angular: vec![0.01],
+            }
+        })
+        .unwrap();
+    for problem in [relaxed(), smooth(), tumbling] {
+        let problem = problem
+            .edited(|problem| problem.mesh.tolerance = 1e-5)
+            .unwrap();
         let plan = plan(&problem).unwrap();
         for law in [Law::ComputedTorque, Law::PdFeedForward] {
             let mut platform = Platform::default();

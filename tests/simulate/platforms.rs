@@ -11,7 +11,9 @@ pub const STIFF: f64 = 400.0;
 
 /// A plan of the two-link arm that holds its joints for `duration` seconds.
 pub fn held(duration: f64) -> Player {
-    let problem = Problem::new("held", two_link(), duration, &[0.0; 2], &[0.0; 2]);
+    let problem = Problem::builder("held", two_link(), duration, &[0.0; 2], &[0.0; 2])
+        .build()
+        .unwrap();
     let mesh = Mesh::uniform(1, 2).unwrap();
     let plan = Discretization::sample(mesh, duration, 5, 2, |_, _, _| {});
     Player::new(&problem, &plan, Platform::default()).unwrap()

@@ -48,14 +48,18 @@ fn the_same_seed_gives_the_same_bits() {
 #[test]
 fn robots_in_space_are_refused() {
     let model = trees::chain(3, 4);
-    let problem = Problem::new("space", model, 5.0, &[0.0; 3], &[0.0; 3]);
+    let problem = Problem::builder("space", model, 5.0, &[0.0; 3], &[0.0; 3])
+        .build()
+        .unwrap();
     let mesh = Mesh::uniform(1, 2).unwrap();
     let plan = Discretization::sample(mesh, 5.0, 9, 3, |_, _, _| {});
     let error = Player::new(&problem, &plan, Platform::default()).unwrap_err();
     assert!(matches!(error, SimulateError::NotPlanar { .. }), "{error}");
     assert_eq!(error.to_string().lines().count(), 1);
 
-    let other = Problem::new("other", two_link(), 5.0, &[0.0; 2], &[0.0; 2]);
+    let other = Problem::builder("other", two_link(), 5.0, &[0.0; 2], &[0.0; 2])
+        .build()
+        .unwrap();
     let error = Player::new(&other, &plan, Platform::default()).unwrap_err();
     assert!(matches!(error, SimulateError::Plan(_)), "{error}");
 }

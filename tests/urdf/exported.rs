@@ -81,7 +81,7 @@ fn base_that_floats_on_the_world() {
 #[test]
 fn links_without_mass_between_joints() {
     let folder = folder(WRIST, FILE, 3, SPACECRAFT);
-    let robot = load(&folder).problem.robot;
+    let robot = load(&folder).problem.into_builder().robot;
     assert_eq!(robot.joints()[1].body.inertia.mass(), 0.0);
     let run = folder.run(&["plan", "case.toml", "--json"]);
     assert_eq!(run.code, 0, "{run:?}");
@@ -110,7 +110,10 @@ fn start_at_which_massless_links_make_joints_interchangeable() {
 #[test]
 fn mimicking_joints_can_be_locked() {
     let robot = "{ file = \"arm.urdf\", lock = { finger1 = 0.02, finger2 = 0.02 } }";
-    let robot = load(&folder(GRIPPER, robot, 1, "")).problem.robot;
+    let robot = load(&folder(GRIPPER, robot, 1, ""))
+        .problem
+        .into_builder()
+        .robot;
     assert!((robot.joints()[0].body.inertia.mass() - 2.2).abs() < 1e-15);
     assert_eq!(
         refusal(GRIPPER),

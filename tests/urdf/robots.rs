@@ -38,7 +38,7 @@ pub fn load(folder: &Folder) -> ProblemFile {
 /// The robot of `arm.urdf` and the notes on it.
 pub fn read(urdf: &str, joints: usize) -> (Model, Vec<String>) {
     let file = load(&folder(urdf, FILE, joints, ""));
-    (file.problem.robot, file.notes)
+    (file.problem.into_builder().robot, file.notes)
 }
 
 /// The one line with which `check` and `plan` refuse the files.

@@ -82,7 +82,7 @@ fn end_effector_is_the_only_last_link_or_the_one_named() {
     ] {
         let robot = format!("{{ file = \"arm.urdf\", end_effector = \"{name}\" }}");
         let file = load(&folder(ARM, &robot, 2, ""));
-        assert_at(end(file.problem.robot), joint, expected);
+        assert_at(end(file.problem.into_builder().robot), joint, expected);
     }
     // Several last links, none of them more of an end than the others.
     assert_eq!(end(read(TWO_ARMS, 4).0), None);
@@ -102,7 +102,10 @@ fn end_effector_that_is_not_there() {
 #[test]
 fn locked_joints_become_part_of_what_carries_them() {
     let robot = "{ file = \"arm.urdf\", lock = { boom = 0.3 } }";
-    let robot = load(&folder(ARM, robot, 1, "")).problem.robot;
+    let robot = load(&folder(ARM, robot, 1, ""))
+        .problem
+        .into_builder()
+        .robot;
     assert_eq!(robot.joint_count(), 1);
     assert!((robot.joints()[0].body.inertia.mass() - 7.5).abs() < 1e-15);
     let (carrier, placement) = robot.end_effector().unwrap();

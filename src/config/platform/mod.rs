@@ -150,9 +150,9 @@ mod tests {
     use crate::simulate::{Law, Pad};
 
     fn read(text: &str) -> Result<Platform, ConfigError> {
-        let robot = ProblemFile::shipped("table1-smooth").unwrap().problem.robot;
+        let problem = ProblemFile::shipped("table1-smooth").unwrap().problem;
         let texts = [("table.toml", text)];
-        PlatformFile::read(Path::new("table.toml"), Files::Kept(&texts), &robot)
+        PlatformFile::read(Path::new("table.toml"), Files::Kept(&texts), &problem.robot)
             .map(|file| file.platform)
     }
 

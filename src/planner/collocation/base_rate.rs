@@ -3,7 +3,7 @@
 use super::Planner;
 use crate::nlp::Control;
 use crate::planner::{Event, Method, Plan, PlanError};
-use crate::problem::{Cost, Problem};
+use crate::problem::{Cost, CostId, Problem};
 use crate::refine::{self, Start};
 use crate::system::cost_terms;
 
@@ -24,25 +24,24 @@ pub(in crate::planner) fn plan(
     start: Option<&Start>,
     monitor: &mut dyn FnMut(&Event<'_>) -> Control,
 ) -> Result<Plan, PlanError> {
-    let mut own = problem.clone();
-    own.mesh.method = refine::Method::Adaptive;
-    own.cost = base_rate_alone(&problem.cost);
+    let own = problem.edited(|own| {
+        own.mesh.method = refine::Method::Adaptive;
+        base_rate_alone(&mut own.cost);
+    })?;
     let mut plan = planner.plan_with(&own, start, monitor)?;
     plan.method = Method::BaseRate;
     plan.objective = cost_terms(problem, &plan.discretization).total();
     Ok(plan)
 }
 
-fn base_rate_alone(cost: &Cost) -> Cost {
-    let zero = |weights: &[f64]| vec![0.0; weights.len()];
-    Cost {
-        final_base_attitude: zero(&cost.final_base_attitude),
-        final_base_position: zero(&cost.final_base_position),
-        base_rate: vec![1.0; cost.base_rate.len()],
-        joint_rate: zero(&cost.joint_rate),
-        control: vec![REGULARIZATION; cost.control.len()],
-        torque: zero(&cost.torque),
-        duration: 0.0,
-        rate_matrix: None,
+fn base_rate_alone(cost: &mut Cost) {
+    for entry in cost.entries_mut() {
+        entry.weights.fill(match entry.id {
+            CostId::BaseRate => 1.0,
+            CostId::Control => REGULARIZATION,
+            _ => 0.0,
+        });
     }
+    cost.duration = 0.0;
+    cost.rate_matrix = None;
 }

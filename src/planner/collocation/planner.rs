@@ -63,7 +63,6 @@ impl Planner {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Plan, PlanError> {
         let began = Instant::now();
-        problem.validate()?;
         with_system!(&System::new(problem), system => {
             self.run(problem, system, start, monitor, began)
         })

@@ -1,7 +1,7 @@
 //! The sparsity pattern of the last problem, kept for the next one.
 
 use crate::dynamics::space::Space;
-use crate::problem::{Problem, Task};
+use crate::problem::{Problem, ProblemBuilder, Task};
 use crate::system::FreeFloating;
 use crate::transcription::Patterns;
 
@@ -28,7 +28,7 @@ impl SparsityCache {
 ///
 /// Every field is named, so that one to come is not forgotten.
 fn same_structure(a: &Problem, b: &Problem) -> bool {
-    let Problem {
+    let ProblemBuilder {
         name: _,
         robot,
         attitude,
@@ -37,7 +37,7 @@ fn same_structure(a: &Problem, b: &Problem) -> bool {
         cost,
         mesh: _,
         solver: _,
-    } = a;
+    } = &**a;
     let Task {
         duration,
         initial_joints: _,

@@ -45,7 +45,6 @@ const STEPS: f64 = 2000.0;
 
 /// Refuses tasks that are not from rest to rest between given joint positions.
 pub(super) fn rest_to_rest(method: Method, problem: &Problem) -> Result<(), ProblemError> {
-    problem.validate()?;
     let refused = |key: &str, found: &str, expected: &str| {
         Err(ProblemError {
             key: key.into(),

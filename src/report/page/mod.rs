@@ -7,6 +7,7 @@ mod texts;
 
 use super::format::time;
 use crate::collocation::Mesh;
+use crate::ocp::Interval;
 use crate::planner::{Method, Status};
 use crate::problem::Problem;
 use crate::solution::{Build, Solution};
@@ -93,9 +94,13 @@ fn straight(problem: &Problem, plan: &Discretization) -> Option<Trajectory> {
     }
     let n = problem.robot.joint_count();
     let last = plan.state(plan.mesh.points());
-    let mut problem = problem.clone();
-    problem.task.final_joints = last[last.len() - 2 * n..last.len() - n].to_vec();
-    Some(straight_motion(&problem, plan.duration, FRAMES))
+    let reached = &last[last.len() - 2 * n..last.len() - n];
+    // Where a plan ends need not be within the limits, which have no part in the straight path.
+    let problem = problem.edited(|problem| {
+        problem.task.final_joints = reached.to_vec();
+        problem.limits.joint_position.fill(Interval::FREE);
+    });
+    Some(straight_motion(&problem.ok()?, plan.duration, FRAMES))
 }
 
 /// The robot in motion; drawn by the script from the scene.

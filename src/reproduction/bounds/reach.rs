@@ -36,19 +36,20 @@ pub fn largest_final_attitude(
     session: &mut Session<'_>,
     problem: &Problem,
 ) -> Result<Option<Reached>, ReproductionError> {
-    let mut task = problem.clone();
-    let cost = &mut task.cost;
-    for weights in [
-        &mut cost.final_base_position,
-        &mut cost.base_rate,
-        &mut cost.joint_rate,
-    ] {
-        weights.fill(0.0);
-    }
-    cost.final_base_attitude.fill(1.0);
-    cost.control.fill(REGULARIZATION);
-    task.limits.base_attitude.fill(Interval::FREE);
-    task.limits.final_base_attitude = task.limits.base_attitude.clone();
+    let task = problem.edited(|task| {
+        let cost = &mut task.cost;
+        for weights in [
+            &mut cost.final_base_position,
+            &mut cost.base_rate,
+            &mut cost.joint_rate,
+        ] {
+            weights.fill(0.0);
+        }
+        cost.final_base_attitude.fill(1.0);
+        cost.control.fill(REGULARIZATION);
+        task.limits.base_attitude.fill(Interval::FREE);
+        task.limits.final_base_attitude.fill(Interval::FREE);
+    })?;
     let Some(system) = FreeFloating::planar(&task) else {
         return Ok(None);
     };

@@ -62,19 +62,21 @@ pub struct Bounds {
 /// # Errors
 /// Those of [`Session::plan`].
 pub fn bounded(session: &mut Session<'_>) -> Result<(Case, Plan), ReproductionError> {
-    let mut problem = ProblemFile::shipped("table1")?.problem;
+    let problem = ProblemFile::shipped("table1")?.problem;
     let published = session.plan("table1, as published", &problem, None)?.plan;
     let bound = smallest_bound(&published).map_or(90.0, |found| (found + 0.5).ceil());
-    let limits = &mut problem.limits;
-    limits
-        .base_attitude
-        .fill(Interval::symmetric(bound.to_radians()));
-    limits.final_base_attitude = limits.base_attitude.clone();
-    let settings = &mut problem.mesh;
-    (settings.segments, settings.points) = (40, 4);
-    (settings.tolerance, settings.max_iterations) = (1e-3, 10);
+    let problem = problem.edited(|problem| {
+        let limits = &mut problem.limits;
+        let bound = Interval::symmetric(bound.to_radians());
+        limits.base_attitude.fill(bound);
+        limits.final_base_attitude.fill(bound);
+        let settings = &mut problem.mesh;
+        (settings.segments, settings.points) = (40, 4);
+        (settings.tolerance, settings.max_iterations) = (1e-3, 10);
+    })?;
     let title = format!("table1, the base within ±{bound}°");
-    let mesh = settings
+    let mesh = problem
+        .mesh
         .first_mesh()
         .map_err(|error| ReproductionError::Plan {
             title: title.clone(),

@@ -65,9 +65,8 @@ fn scaled(problem: &Problem, factor: f64) -> Option<Problem> {
         name: name.clone(),
         inertia: Inertia::new(inertia.mass(), *inertia.center(), rotational).ok()?,
     };
-    let mut scaled = problem.clone();
-    scaled.robot = Model::new(robot.name(), base, robot.joints().to_vec()).ok()?;
-    Some(scaled)
+    let robot = Model::new(robot.name(), base, robot.joints().to_vec()).ok()?;
+    problem.edited(|scaled| scaled.robot = robot).ok()
 }
 
 #[cfg(test)]

@@ -53,8 +53,7 @@ impl Measured {
             method.name(),
             problem.mesh.tolerance
         );
-        let mut problem = problem.clone();
-        problem.mesh.method = method;
+        let problem = problem.edited(|problem| problem.mesh.method = method)?;
         let mut runs: Vec<Run> = Vec::new();
         for _ in 0..repeat.max(1) {
             runs.push(session.plan(&title, &problem, None)?);

@@ -34,12 +34,14 @@ pub struct SensitivityRow {
 pub fn sensitivity(session: &mut Session<'_>) -> Result<Vec<SensitivityRow>, ReproductionError> {
     let mut rows = Vec::new();
     for (name, _) in CASES {
-        let mut problem = ProblemFile::shipped(name)?.problem;
+        let case = ProblemFile::shipped(name)?.problem;
         for lambda1 in LAMBDA1 {
             for lambda2 in LAMBDA2 {
                 for r_max in R_MAX {
-                    let mesh = &mut problem.mesh;
-                    (mesh.lambda1, mesh.lambda2, mesh.r_max) = (lambda1, lambda2, r_max);
+                    let problem = case.edited(|problem| {
+                        let mesh = &mut problem.mesh;
+                        (mesh.lambda1, mesh.lambda2, mesh.r_max) = (lambda1, lambda2, r_max);
+                    })?;
                     rows.push(SensitivityRow {
                         problem: name,
                         lambda1,

@@ -28,11 +28,13 @@ pub struct SweepRow {
 /// # Errors
 /// Those of [`Session::plan`].
 pub fn sweep(session: &mut Session<'_>) -> Result<Vec<SweepRow>, ReproductionError> {
-    let mut problem = ProblemFile::shipped("table1-smooth")?.problem;
+    let smooth = ProblemFile::shipped("table1-smooth")?.problem;
     let mut rows = Vec::new();
     for control_weight in WEIGHTS {
-        problem.cost.control.fill(control_weight);
-        problem.name = format!("control weight {control_weight}");
+        let problem = smooth.edited(|problem| {
+            problem.cost.control.fill(control_weight);
+            problem.name = format!("control weight {control_weight}");
+        })?;
         for method in [Global, Adaptive] {
             let measured = Measured::of(session, &problem, method, 1)?;
             rows.push(SweepRow {

@@ -23,7 +23,7 @@ mod bounds;
 mod quadratic;
 
 use super::joint_motion::{JointMotion, THERE, assemble, duration, goal_missed, rest_to_rest};
-use crate::dynamics::attitude::{Attitude, SpatialAttitude};
+use crate::dynamics::attitude::SpatialAttitude;
 use crate::dynamics::space::Space;
 use crate::integrate::Rk4;
 use crate::nlp::Control;
@@ -58,10 +58,11 @@ pub(in crate::planner) fn plan(
     let began = time::Instant::now();
     rest_to_rest(Method::AccelerationQp, problem)?;
     // References are for angles, whatever the plan is to be written in.
-    let mut by_angles = problem.clone();
-    if problem.robot.plane().is_none() && !problem.attitude.is_angles() {
-        by_angles.set_attitude(SpatialAttitude::RollPitchYaw);
-    }
+    let by_angles = problem.edited(|by_angles| {
+        if by_angles.has_rotation_angle() {
+            by_angles.set_attitude(SpatialAttitude::RollPitchYaw);
+        }
+    })?;
     let motion = with_system!(&System::new(&by_angles), system => {
         follow(&by_angles, system, monitor)
     });

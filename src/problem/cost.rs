@@ -1,0 +1,130 @@
+//! The cost functional.
+
+use super::components::{ComponentKind, base_sizes};
+use crate::dynamics::Model;
+
+/// Weights of the cost functional (14).
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Cost {
+    /// ‖η(t_f)‖², one weight an angle; by quaternion or modified Rodrigues parameters one weight, of
+    /// the squared rotation angle from the start.
+    pub final_base_attitude: Vec<f64>,
+    /// ‖ζ(t_f) − ζ(t₀)‖², one weight a length.
+    pub final_base_position: Vec<f64>,
+    /// ∫‖η̇‖² dt, one weight an angle; by quaternion or modified Rodrigues parameters ∫‖ω‖² dt, one
+    /// a base axis.
+    pub base_rate: Vec<f64>,
+    /// ∫‖θ̇‖² dt, one weight a joint.
+    pub joint_rate: Vec<f64>,
+    /// ∫‖u‖² dt, one weight a joint.
+    pub control: Vec<f64>,
+    /// ∫‖τ‖² dt, one weight a joint.
+    pub torque: Vec<f64>,
+    /// The duration t_f itself, where it is free; 1/s.
+    pub duration: f64,
+    /// Λ of (14) as a full matrix over [η̇, θ̇], by rows, added to the weights above; symmetric.
+    pub rate_matrix: Option<Vec<Vec<f64>>>,
+}
+
+/// A term of the cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum CostId {
+    /// ‖η(t_f)‖².
+    FinalBaseAttitude,
+    /// ‖ζ(t_f) − ζ(t₀)‖².
+    FinalBasePosition,
+    /// ∫‖η̇‖² dt.
+    BaseRate,
+    /// ∫‖θ̇‖² dt.
+    JointRate,
+    /// ∫‖u‖² dt.
+    Control,
+    /// ∫‖τ‖² dt.
+    Torque,
+    /// t_f.
+    Duration,
+    /// Λ over [η̇, θ̇].
+    RateMatrix,
+}
+
+impl CostId {
+    /// The key in the problem file (`cost.base_rate`).
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::FinalBaseAttitude => "cost.final_base_attitude",
+            Self::FinalBasePosition => "cost.final_base_position",
+            Self::BaseRate => "cost.base_rate",
+            Self::JointRate => "cost.joint_rate",
+            Self::Control => "cost.control",
+            Self::Torque => "cost.torque",
+            Self::Duration => "cost.duration",
+            Self::RateMatrix => "cost.rate_matrix",
+        }
+    }
+
+    /// The key within its table (`base_rate`).
+    pub fn name(self) -> &'static str {
+        let key = self.key();
+        key.rsplit_once('.').map_or(key, |(_, name)| name)
+    }
+}
+
+/// One term of the cost, with `W` its weights: `&Vec<f64>` or `&mut Vec<f64>`.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct CostEntry<W> {
+    /// Which term.
+    pub id: CostId,
+    /// What there is one weight of.
+    pub components: ComponentKind,
+    /// The weights.
+    pub weights: W,
+}
+
+/// The table of all terms that have weights by component. A new one is a line here and a field.
+#[rustfmt::skip]
+macro_rules! table {
+    ($cost:ident, $($borrow:tt)+) => {{
+        use ComponentKind::{BaseAttitude, BasePosition, BaseRate, Joint};
+        use CostId as Id;
+        [
+            CostEntry { id: Id::FinalBaseAttitude, components: BaseAttitude, weights: $($borrow)+ $cost.final_base_attitude },
+            CostEntry { id: Id::FinalBasePosition, components: BasePosition, weights: $($borrow)+ $cost.final_base_position },
+            CostEntry { id: Id::BaseRate, components: BaseRate, weights: $($borrow)+ $cost.base_rate },
+            CostEntry { id: Id::JointRate, components: Joint, weights: $($borrow)+ $cost.joint_rate },
+            CostEntry { id: Id::Control, components: Joint, weights: $($borrow)+ $cost.control },
+            CostEntry { id: Id::Torque, components: Joint, weights: $($borrow)+ $cost.torque },
+        ]
+    }};
+}
+
+impl Cost {
+    /// No cost, for a problem of `robot`.
+    pub fn none(robot: &Model) -> Self {
+        let n = robot.joint_count();
+        let (angles, lengths) = base_sizes(robot);
+        Self {
+            final_base_attitude: vec![0.0; angles],
+            final_base_position: vec![0.0; lengths],
+            base_rate: vec![0.0; angles],
+            joint_rate: vec![0.0; n],
+            control: vec![0.0; n],
+            torque: vec![0.0; n],
+            duration: 0.0,
+            rate_matrix: None,
+        }
+    }
+
+    /// Every term that has weights by component, in the order of the problem file: all but
+    /// [`CostId::Duration`] and [`CostId::RateMatrix`].
+    pub fn entries(&self) -> impl Iterator<Item = CostEntry<&Vec<f64>>> {
+        table!(self, &).into_iter()
+    }
+
+    /// The same, to be changed.
+    pub fn entries_mut(&mut self) -> impl Iterator<Item = CostEntry<&mut Vec<f64>>> {
+        table!(self, &mut).into_iter()
+    }
+}

@@ -1,0 +1,62 @@
+//! Limits that have bounds by component.
+
+use super::checks::{Checked, count, error, indexed, interval};
+use crate::ocp::Interval;
+use crate::problem::builder::ProblemBuilder;
+use crate::problem::components::ComponentKind;
+use crate::problem::limit_id::LimitId;
+
+pub(super) fn check(problem: &ProblemBuilder) -> Checked {
+    every_bound(problem)?;
+    rotation_angles(problem)?;
+    start_attitude(problem)
+}
+
+fn every_bound(problem: &ProblemBuilder) -> Checked {
+    for entry in problem.limits.entries() {
+        let key = entry.id.key();
+        let expected = problem.component_count(entry.components);
+        let what = match entry.components {
+            ComponentKind::Joint => "joints",
+            ComponentKind::BaseAttitude if problem.has_rotation_angle() => "base rotation angles",
+            ComponentKind::BaseAttitude | ComponentKind::BaseRate => "base angles",
+            ComponentKind::BasePosition => "base lengths",
+        };
+        count(&key, entry.bounds.len(), expected, what)?;
+        for (i, bound) in entry.bounds.iter().enumerate() {
+            interval(&indexed(&key, i, expected), bound)?;
+        }
+    }
+    Ok(())
+}
+
+/// A rotation angle has no sign.
+fn rotation_angles(problem: &ProblemBuilder) -> Checked {
+    if !problem.has_rotation_angle() {
+        return Ok(());
+    }
+    let on_attitude = |components| components == ComponentKind::BaseAttitude;
+    for entry in problem.limits.entries() {
+        for Interval { lower, upper } in entry.bounds {
+            if on_attitude(entry.components) && *lower != -*upper {
+                let found = format!("[{lower}, {upper}]");
+                let expected = "a symmetric bound, the largest rotation angle";
+                return Err(error(entry.id.key(), found, expected));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The attitude at the start, zero, is within its bounds.
+fn start_attitude(problem: &ProblemBuilder) -> Checked {
+    let bounds = &problem.limits.base_attitude;
+    match bounds.iter().position(|bound| bound.violation(0.0) > 0.0) {
+        Some(i) => Err(error(
+            indexed(&LimitId::BaseAttitude.key(), i, bounds.len()),
+            format!("[{}, {}]", bounds[i].lower, bounds[i].upper),
+            "a range around 0, the attitude at the start",
+        )),
+        None => Ok(()),
+    }
+}

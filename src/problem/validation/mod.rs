@@ -1,0 +1,33 @@
+//! Whether a problem can be at all: lengths, signs, start and goal within their limits.
+
+mod checks;
+mod cost;
+mod ends;
+mod goal;
+mod keep_out;
+mod limits;
+mod task;
+mod way_points;
+
+use super::builder::ProblemBuilder;
+use super::error::ProblemError;
+use checks::error;
+
+/// Checks all of `problem`; the first thing found wrong is the error.
+///
+/// Lengths come first, so that later checks may index.
+pub(super) fn check(problem: &ProblemBuilder) -> Result<(), ProblemError> {
+    task::check(problem)?;
+    limits::check(problem)?;
+    keep_out::check(problem)?;
+    way_points::check(problem)?;
+    ends::within_limits(problem)?;
+    cost::check(problem)?;
+    mesh(problem)?;
+    ends::move_mass(problem)
+}
+
+fn mesh(problem: &ProblemBuilder) -> Result<(), ProblemError> {
+    let wrong = |(key, found, expected)| error(format!("mesh.{key}"), found, expected);
+    problem.mesh.validate().map_err(wrong)
+}

@@ -1,0 +1,58 @@
+//! The task: duration, start and goal.
+
+use super::checks::{Checked, count, error, interval, numbers};
+use super::goal;
+use crate::ocp::Interval;
+use crate::problem::builder::ProblemBuilder;
+use crate::problem::components::base_sizes;
+use crate::problem::limit_id::LimitId;
+
+pub(super) fn check(problem: &ProblemBuilder) -> Checked {
+    duration(&problem.task.duration)?;
+    joints(problem)?;
+    momentum(problem)?;
+    goal(problem)
+}
+
+fn duration(duration: &Interval) -> Checked {
+    const KEY: &str = "task.duration";
+    if !(duration.lower > 0.0 && duration.lower.is_finite() && duration.upper.is_finite()) {
+        let found = if duration.is_fixed() {
+            format!("{} s", duration.lower)
+        } else {
+            format!("from {} to {} s", duration.lower, duration.upper)
+        };
+        return Err(error(KEY, found, "a finite duration above zero"));
+    }
+    interval(KEY, duration)
+}
+
+fn joints(problem: &ProblemBuilder) -> Checked {
+    let (task, n) = (&problem.task, problem.robot.joint_count());
+    numbers("task.initial.joints", &task.initial_joints, n, "joints")?;
+    numbers("task.initial.rates", &task.initial_rates, n, "joints")?;
+    numbers("task.final.joints", &task.final_joints, n, "joints")?;
+    count("task.final.free", task.free_joints.len(), n, "joints")
+}
+
+fn momentum(problem: &ProblemBuilder) -> Checked {
+    let momentum = &problem.task.initial_momentum;
+    let (angles, lengths) = base_sizes(&problem.robot);
+    let key = "task.initial.linear_momentum";
+    numbers(key, &momentum.linear, lengths, "base lengths")?;
+    let key = "task.initial.angular_momentum";
+    numbers(key, &momentum.angular, angles, "base angles")
+}
+
+fn goal(problem: &ProblemBuilder) -> Checked {
+    let task = &problem.task;
+    match &task.end_effector {
+        Some(goal) => goal::check(goal, &LimitId::EndEffector.key(), &problem.robot),
+        None if task.free_joints.contains(&true) => Err(error(
+            "task.final.joints",
+            "some joints left free",
+            "a position for every joint, or a goal for the end effector",
+        )),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,120 @@
+//! Way-points: in the order of time, within the limits, with something to hold there.
+
+use super::checks::{Checked, count, error, indexed, numbers};
+use super::goal;
+use crate::ocp::Interval;
+use crate::problem::builder::ProblemBuilder;
+use crate::problem::limit_id::LimitId;
+use crate::problem::way_point::{Moment, WayPoint};
+
+pub(super) fn check(problem: &ProblemBuilder) -> Checked {
+    let mut before = None;
+    for (i, point) in problem.task.way_points.iter().enumerate() {
+        let key = LimitId::WayPoint(i).key();
+        moment(problem, &key, point, before)?;
+        joints(problem, &key, point)?;
+        content(problem, &key, point)?;
+        before = Some(point);
+    }
+    Ok(())
+}
+
+fn moment(
+    problem: &ProblemBuilder,
+    key: &str,
+    point: &WayPoint,
+    before: Option<&WayPoint>,
+) -> Checked {
+    let duration = &problem.task.duration;
+    let (key, found, range) = match point.at {
+        Moment::Time(time) if !duration.is_fixed() => {
+            let found = format!("{time} s, where the duration is free");
+            let expected = "fraction, the fraction of the duration";
+            return Err(error(format!("{key}.time"), found, expected));
+        }
+        Moment::Time(time) => {
+            let range = format!(
+                "a time above 0 and below the duration, {} s",
+                duration.upper
+            );
+            (format!("{key}.time"), format!("{time} s"), range)
+        }
+        Moment::Fraction(fraction) => {
+            let range = "a fraction of the duration, above 0 and below 1".to_string();
+            (format!("{key}.fraction"), fraction.to_string(), range)
+        }
+    };
+    let fraction = point.fraction(duration);
+    if !(fraction > 0.0 && fraction < 1.0) {
+        return Err(error(key, found, range));
+    }
+    match before.map(|before| before.fraction(duration)) {
+        Some(last) if fraction - last < CLOSEST => {
+            let expected = "way-points in the order of time, no two at one time";
+            Err(error(key, found, expected))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Fraction of the duration below which two way-points count as at one time.
+const CLOSEST: f64 = 1e-6;
+
+fn joints(problem: &ProblemBuilder, key: &str, point: &WayPoint) -> Checked {
+    let limits = &problem.limits;
+    let (positions, rates) = (&limits.joint_position, &limits.joint_velocity);
+    let key = |name: &str| format!("{key}.{name}");
+    within(
+        problem,
+        &key("joints"),
+        &point.joints,
+        (LimitId::JointPosition, positions),
+    )?;
+    within(
+        problem,
+        &key("joint_rates"),
+        &point.joint_rates,
+        (LimitId::JointVelocity, rates),
+    )?;
+    let n = problem.robot.joint_count();
+    match &point.guess {
+        Some(guess) => numbers(&key("guess"), guess, n, "joints"),
+        None => Ok(()),
+    }
+}
+
+/// The given ones of `values` are finite and within their limit.
+fn within(
+    problem: &ProblemBuilder,
+    key: &str,
+    values: &[Option<f64>],
+    (limit, bounds): (LimitId, &[Interval]),
+) -> Checked {
+    let n = problem.robot.joint_count();
+    count(key, values.len(), n, "joints")?;
+    for (j, value) in values.iter().enumerate() {
+        let Some(value) = *value else { continue };
+        if !value.is_finite() {
+            return Err(error(indexed(key, j, n), value, "a finite number"));
+        }
+        if bounds[j].violation(value) > 0.0 {
+            let found = format!("{value} for joint '{}'", problem.robot.joints()[j].name);
+            let Interval { lower, upper } = bounds[j];
+            let expected = format!("a value within {limit}, [{lower}, {upper}]");
+            return Err(error(indexed(key, j, n), found, expected));
+        }
+    }
+    Ok(())
+}
+
+fn content(problem: &ProblemBuilder, key: &str, point: &WayPoint) -> Checked {
+    let mut values = point.joints.iter().chain(&point.joint_rates);
+    match &point.end_effector {
+        Some(goal) => goal::check(goal, &format!("{key}.end_effector"), &problem.robot),
+        None if values.all(Option::is_none) => {
+            let expected = "joints, joint_rates, end_effector or several of them";
+            Err(error(key, "nothing to hold there", expected))
+        }
+        None => Ok(()),
+    }
+}
