@@ -7,9 +7,9 @@
 
 use super::cost::PathTerm;
 use super::free_floating::FreeFloating;
-use super::functions::torques;
 use super::linearization::{Adjoint, Linearization, Lower};
 use super::rows::PathRows;
+use super::torques::torques;
 use crate::autodiff::{Dual, HyperDual, Scalar, has_fused};
 use crate::dynamics::Sensitivity;
 use crate::dynamics::attitude::Attitude;

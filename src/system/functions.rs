@@ -5,6 +5,7 @@ use super::derivatives;
 use super::free_floating::FreeFloating;
 use super::instant::{Instant, Pose};
 use super::rows::{EndRows, PathRows};
+use super::torques::torques;
 use crate::autodiff::Scalar;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
@@ -164,16 +165,4 @@ fn sum<S: Scalar>(values: impl Iterator<Item = S>) -> S {
         sum += value;
     }
     sum
-}
-
-/// τ = Hu from the lower triangle of H.
-pub(crate) fn torques<S: Scalar>(mass_matrix: &[S], u: &[S], torque: &mut [S]) {
-    let n = u.len();
-    for i in 0..n {
-        let mut sum = S::zero();
-        for (j, &uj) in u.iter().enumerate() {
-            sum += mass_matrix[i.max(j) * n + i.min(j)] * uj;
-        }
-        torque[i] = sum;
-    }
 }

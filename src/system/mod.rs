@@ -28,6 +28,7 @@ mod quintic;
 mod row_values;
 mod rows;
 mod straight_line;
+mod torques;
 mod trajectory;
 
 pub use cost::{CostTerm, CostTerms, JointEffort, Side};

@@ -3,9 +3,9 @@
 use super::cost::{CostTerm, CostTerms, EndTerm, PathTerm, quadrature};
 use super::dispatch::{System, with_system};
 use super::free_floating::FreeFloating;
-use super::functions::torques;
 use super::instant::{Instant, Pose};
 use super::rows::{EndBlock, EndEffectorRows, EndRows};
+use super::torques::torques;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;

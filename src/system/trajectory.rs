@@ -2,8 +2,8 @@
 
 use super::dispatch::{System, with_system};
 use super::free_floating::FreeFloating;
-use super::functions::torques;
 use super::motion::{Metrics, Trajectory};
+use super::torques::torques;
 use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;

@@ -174,7 +174,8 @@ mod tests {
                 .iter()
                 .zip([0.0, 0.303_461_9, 0.5, 0.696_538_1, 1.0])
         {
-            assert!((found - expected).abs() < 1e-5, "{found}, {expected}");
+            // The trapezoidal rule of 101 samples.
+            assert!((found - expected).abs() < 1e-4, "{found}, {expected}");
         }
     }
 

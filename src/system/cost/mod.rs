@@ -8,6 +8,7 @@ mod breakdown;
 mod control;
 mod effort;
 mod rates;
+mod term;
 mod terminal;
 mod torque;
 
@@ -15,6 +16,7 @@ pub use breakdown::{CostTerm, CostTerms, Side};
 pub use effort::JointEffort;
 
 pub(crate) use effort::quadrature;
+pub(crate) use term::{EndTerm, PathTerm};
 
 use super::instant::{Instant, Needs, Pose};
 use super::linearization::{Adjoint, Linearization, Lower};
@@ -26,53 +28,6 @@ use control::ControlTerm;
 use rates::RateTerm;
 use terminal::{DurationTerm, FinalAttitudeTerm, FinalPositionTerm};
 use torque::TorqueTerm;
-
-/// A term that is integrated along the path.
-pub(crate) trait PathTerm<Sp: Space> {
-    /// The weights behind it.
-    fn id(&self) -> CostId;
-
-    /// Whose motion it is about.
-    fn side(&self) -> Side;
-
-    /// What is needed beyond the state.
-    fn needs(&self) -> Needs {
-        Needs::default()
-    }
-
-    /// The value, with its weights.
-    fn value<S: Scalar>(&self, at: &Instant<'_, Sp, S>) -> S;
-
-    /// Adds the derivatives by the inputs to `row`.
-    fn gradient(&self, at: &Linearization<'_, Sp>, row: &mut [f64]);
-
-    /// Adds to the weights on what the term is a function of.
-    fn weigh(&self, at: &Linearization<'_, Sp>, weight: f64, adjoint: &mut Adjoint<'_>) {
-        let _ = (at, weight, adjoint);
-    }
-
-    /// Adds second derivatives beyond those of what [`Self::weigh`] names.
-    fn curvature(&self, at: &Linearization<'_, Sp>, weight: f64, hessian: &mut Lower<'_>) {
-        let _ = (at, weight, hessian);
-    }
-}
-
-/// A term of the end.
-pub(crate) trait EndTerm<Sp: Space> {
-    /// The weights behind it.
-    fn id(&self) -> CostId;
-
-    /// Whose motion it is about.
-    fn side(&self) -> Side;
-
-    /// What is needed beyond the state.
-    fn needs(&self) -> Needs {
-        Needs::default()
-    }
-
-    /// The value, with its weights.
-    fn value<S: Scalar>(&self, at: &Pose<'_, Sp, S>) -> S;
-}
 
 /// The kinds of terms of the path.
 #[derive(Debug, Clone)]
@@ -175,18 +130,4 @@ impl<Sp: Space> EndTerm<Sp> for EndCost {
     fn value<S: Scalar>(&self, at: &Pose<'_, Sp, S>) -> S {
         each_end!(self, term => term.value(at))
     }
-}
-
-/// Σ wᵢ vᵢ², leaving out what has no weight.
-fn weighted_squares<S: Scalar>(weights: &[f64], values: &[S]) -> S {
-    let mut sum = S::zero();
-    for (&weight, value) in weights.iter().zip(values).filter(|(w, _)| **w != 0.0) {
-        sum += value.square() * weight;
-    }
-    sum
-}
-
-/// `weights` where any of them is above zero.
-fn some(weights: &[f64]) -> Option<Vec<f64>> {
-    weights.iter().any(|w| *w > 0.0).then(|| weights.to_vec())
 }

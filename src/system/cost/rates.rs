@@ -1,7 +1,8 @@
 //! Quadratic forms in the rates: ∫‖η̇‖² dt, ∫‖θ̇‖² dt and ∫[η̇, θ̇]ᵀΛ[η̇, θ̇] dt. Where η are no
 //! angles, ω takes the place of η̇.
 
-use super::{PathTerm, Side, some};
+use super::breakdown::Side;
+use super::term::{PathTerm, some};
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Space;
 use crate::problem::{CostId, Problem};

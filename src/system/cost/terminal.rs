@@ -1,6 +1,7 @@
 //! What the base has become at t_f, and t_f itself.
 
-use super::{EndTerm, Side, some, weighted_squares};
+use super::breakdown::Side;
+use super::term::{EndTerm, some, weighted_squares};
 use crate::autodiff::Scalar;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};

@@ -1,6 +1,7 @@
 //! ∫‖τ‖² dt, one weight a joint.
 
-use super::{PathTerm, Side, some, weighted_squares};
+use super::breakdown::Side;
+use super::term::{PathTerm, some, weighted_squares};
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Space;
 use crate::problem::{CostId, Problem};

@@ -6,6 +6,7 @@
 //! follows from these lists.
 
 mod base_rate;
+mod block;
 mod end_effector;
 mod keep_out;
 mod rotation_angle;
@@ -15,6 +16,7 @@ mod way_point;
 
 pub use row::{BoundId, Component, Measure, Row};
 
+pub(crate) use block::{EndRows, PathRows};
 pub(crate) use end_effector::EndEffectorRows;
 pub(crate) use rotation_angle::{NAME as ROTATION_ANGLE, held};
 pub(crate) use way_point::{WayPointRows, way_point};
@@ -29,50 +31,6 @@ use base_rate::BaseRateRows;
 use keep_out::KeepOutRow;
 use rotation_angle::RotationAngleRow;
 use torque::TorqueRows;
-
-/// Rows held at every collocation point.
-pub(crate) trait PathRows<Sp: Space> {
-    /// Limits, units and bounds, one a row.
-    fn rows(&self) -> &[Row];
-
-    /// What is needed beyond the state.
-    fn needs(&self) -> Needs {
-        Needs::default()
-    }
-
-    /// Writes the values.
-    fn values<S: Scalar>(&self, at: &Instant<'_, Sp, S>, rows: &mut [S]);
-
-    /// Adds the derivatives by the inputs to `rows`, each [`Linearization::width`] wide.
-    fn gradient(&self, at: &Linearization<'_, Sp>, rows: &mut [f64]);
-
-    /// Adds to the weights on what the rows are functions of.
-    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
-        let _ = (weights, adjoint);
-    }
-
-    /// Adds second derivatives beyond those of what [`Self::weigh`] names.
-    fn curvature(&self, at: &Linearization<'_, Sp>, weights: &[f64], hessian: &mut Lower<'_>) {
-        let _ = (at, weights, hessian);
-    }
-}
-
-/// Rows held at t_f, which is no collocation point.
-pub(crate) trait EndRows<Sp: Space> {
-    /// Limits, units and bounds, one a row.
-    fn rows(&self) -> &[Row];
-
-    /// What is needed beyond the state.
-    fn needs(&self) -> Needs {
-        Needs {
-            end_pose: true,
-            ..Needs::default()
-        }
-    }
-
-    /// Writes the values.
-    fn values<S: Scalar>(&self, at: &Pose<'_, Sp, S>, rows: &mut [S]);
-}
 
 /// The kinds of path rows.
 #[derive(Debug, Clone)]

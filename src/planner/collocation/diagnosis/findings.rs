@@ -1,6 +1,5 @@
 //! Which bounds a trajectory exceeds, and by how much.
 
-use super::HELD;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::ocp::{Interval, Limited};
@@ -8,6 +7,9 @@ use crate::planner::LimitFinding;
 use crate::problem::{LimitId, Problem, Unit};
 use crate::system::{Component, ElasticLimit, FreeFloating, ROTATION_ANGLE};
 use crate::transcription::Discretization;
+
+/// Excess, relative to the limit, below which it counts as held.
+pub(super) const HELD: f64 = 1e-4;
 
 /// Every bound of `limits` that `trajectory` exceeds.
 pub(in crate::planner) fn findings<Sp: Space>(

@@ -2,6 +2,7 @@
 
 mod findings;
 
+use findings::HELD;
 pub(in crate::planner) use findings::findings;
 
 use crate::dynamics::space::Space;
@@ -22,8 +23,6 @@ const PATIENCE: usize = 5;
 const GAIN: f64 = 5e-3;
 /// Weight of the problem's own cost, so that the least relaxation is not degenerate.
 const REGULARIZATION: f64 = 1e-5;
-/// Excess, relative to the limit, below which it counts as held.
-const HELD: f64 = 1e-4;
 
 /// What the diagnosis found.
 pub(super) struct Diagnosed {
