@@ -267,7 +267,7 @@ fn cost(lines: &mut Lines, problem: &Problem) {
         .filter(weighed)
         .map(|entry| {
             let shown: Vec<String> = entry.weights.iter().map(|w| rounded(*w)).collect();
-            let term = cost_term(problem, entry.id);
+            let term = entry.id.formula(problem.has_rotation_angle());
             match by_name(&component_names(problem, entry.components), &shown) {
                 weight if weight.contains(' ') => format!("({weight}) {term}"),
                 weight => format!("{weight} {term}"),
@@ -275,11 +275,11 @@ fn cost(lines: &mut Lines, problem: &Problem) {
         })
         .collect();
     if cost.duration > 0.0 {
-        let term = cost_term(problem, CostId::Duration);
+        let term = CostId::Duration.formula(problem.has_rotation_angle());
         terms.push(format!("{} {term}", rounded(cost.duration)));
     }
     if cost.rate_matrix.is_some() {
-        let term = cost_term(problem, CostId::RateMatrix);
+        let term = CostId::RateMatrix.formula(problem.has_rotation_angle());
         terms.push(format!("{term} with the full matrix"));
     }
     lines.add(
@@ -290,24 +290,6 @@ fn cost(lines: &mut Lines, problem: &Problem) {
             terms.join(" + ")
         },
     );
-}
-
-/// A term of the cost as a formula.
-fn cost_term(problem: &Problem, id: CostId) -> &'static str {
-    let turned = problem.has_rotation_angle();
-    match id {
-        CostId::FinalBaseAttitude if turned => "φ(t_f)²",
-        CostId::FinalBaseAttitude => "‖η(t_f)‖²",
-        CostId::FinalBasePosition => "‖Δζ(t_f)‖²",
-        CostId::BaseRate if turned => "∫‖ω‖²",
-        CostId::BaseRate => "∫‖η̇‖²",
-        CostId::JointRate => "∫‖θ̇‖²",
-        CostId::Control => "∫‖u‖²",
-        CostId::Torque => "∫‖τ‖²",
-        CostId::Duration => "t_f",
-        CostId::RateMatrix if turned => "∫[ω, θ̇]ᵀΛ[ω, θ̇]",
-        CostId::RateMatrix => "∫[η̇, θ̇]ᵀΛ[η̇, θ̇]",
-    }
 }
 
 fn mesh(lines: &mut Lines, problem: &Problem) {

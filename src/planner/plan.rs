@@ -5,7 +5,7 @@ use crate::nlp;
 use crate::ocp::Interval;
 use crate::problem::{LimitId, Unit};
 use crate::refine::Record;
-use crate::system::{Component, Metrics, Reached, Trajectory};
+use crate::system::{Component, CostTerms, Metrics, Reached, Trajectory};
 use crate::transcription::Discretization;
 use crate::verify::Verification;
 use serde::{Deserialize, Serialize};
@@ -109,6 +109,8 @@ pub struct Plan {
     pub method: Method,
     /// Cost J of (14), whatever cost the method itself knows.
     pub objective: f64,
+    /// Its terms, each with its weight; their sum is J.
+    pub cost_terms: CostTerms,
     /// Tolerance asked for.
     pub tolerance: f64,
     /// Largest error (28) on the final mesh.

@@ -64,6 +64,24 @@ impl CostId {
         }
     }
 
+    /// The term as a formula; `rotation` where the attitude is not described by angles
+    /// ([`ProblemBuilder::has_rotation_angle`](super::ProblemBuilder::has_rotation_angle)).
+    pub fn formula(self, rotation: bool) -> &'static str {
+        match self {
+            Self::FinalBaseAttitude if rotation => "φ(t_f)²",
+            Self::FinalBaseAttitude => "‖η(t_f)‖²",
+            Self::FinalBasePosition => "‖Δζ(t_f)‖²",
+            Self::BaseRate if rotation => "∫‖ω‖²",
+            Self::BaseRate => "∫‖η̇‖²",
+            Self::JointRate => "∫‖θ̇‖²",
+            Self::Control => "∫‖u‖²",
+            Self::Torque => "∫‖τ‖²",
+            Self::Duration => "t_f",
+            Self::RateMatrix if rotation => "∫[ω, θ̇]ᵀΛ[ω, θ̇]",
+            Self::RateMatrix => "∫[η̇, θ̇]ᵀΛ[η̇, θ̇]",
+        }
+    }
+
     /// The key within its table (`base_rate`).
     pub fn name(self) -> &'static str {
         let key = self.key();

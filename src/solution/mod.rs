@@ -19,8 +19,8 @@ pub use json::to_json;
 pub use provenance::{ProblemSource, Provenance, TextFile};
 pub use read::{Saved, SolutionError, read_solution};
 pub use schema::{
-    Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing, Trajectory,
-    Verification,
+    CostTerm, Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing,
+    Trajectory, Verification,
 };
 pub use warm_start::read_warm_start;
 pub use write::solution;

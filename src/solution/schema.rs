@@ -18,6 +18,9 @@ pub struct Solution {
     /// Cost J of (14).
     #[serde(with = "number")]
     pub objective: f64,
+    /// Its terms, each with its weight; empty in files that do not say.
+    #[serde(default)]
+    pub cost_terms: Vec<CostTerm>,
     /// Tolerance asked for.
     #[serde(with = "number")]
     pub tolerance: f64,
@@ -53,6 +56,18 @@ pub struct Solution {
     /// The last programme's primal and dual values, for `--warm-start`.
     #[serde(default)]
     pub iterate: Option<Iterate>,
+}
+
+/// A term of the cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CostTerm {
+    /// Key of its weights in the problem file.
+    pub key: String,
+    /// The term as a formula.
+    pub formula: String,
+    /// Its value, with its weights.
+    #[serde(with = "number")]
+    pub value: f64,
 }
 
 /// One mesh iteration.

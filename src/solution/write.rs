@@ -2,7 +2,7 @@
 
 use super::Provenance;
 use super::schema::*;
-use crate::dynamics::attitude::SpatialAttitude;
+use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::ocp::Interval;
 use crate::planner::{self, Plan};
 use crate::refine::Record;
@@ -17,6 +17,7 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
         status: plan.status,
         method: plan.method.name().into(),
         objective: plan.objective,
+        cost_terms: cost_terms(plan),
         tolerance: plan.tolerance,
         max_error: plan.max_error,
         points: mesh.points(),
@@ -36,6 +37,24 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
         provenance,
         iterate: iterate(&plan.iterate),
     }
+}
+
+/// The terms of the cost; the blocks of the matrix Λ as one.
+fn cost_terms(plan: &Plan) -> Vec<CostTerm> {
+    let rotation = plan.trajectory.attitude.is_some_and(|by| !by.is_angles());
+    let mut found: Vec<CostTerm> = Vec::new();
+    for term in &plan.cost_terms.terms {
+        let key = term.id.key();
+        match found.iter_mut().find(|known| known.key == key) {
+            Some(known) => known.value += term.value,
+            None => found.push(CostTerm {
+                key: key.into(),
+                formula: term.id.formula(rotation).into(),
+                value: term.value,
+            }),
+        }
+    }
+    found
 }
 
 fn iteration(record: &Record) -> Iteration {

@@ -30,7 +30,8 @@ pub(in crate::planner) fn plan(
     })?;
     let mut plan = planner.plan_with(&own, start, monitor)?;
     plan.method = Method::BaseRate;
-    plan.objective = cost_terms(problem, &plan.discretization).total();
+    plan.cost_terms = cost_terms(problem, &plan.discretization);
+    plan.objective = plan.cost_terms.total();
     Ok(plan)
 }
 

@@ -225,6 +225,7 @@ fn assemble<Sp: Space>(
         status,
         method: Method::Collocation(problem.mesh.method),
         objective: outcome.objective,
+        cost_terms: system.cost_terms(&outcome.trajectory),
         tolerance: problem.mesh.tolerance,
         max_error,
         metrics: metrics(&trajectory),

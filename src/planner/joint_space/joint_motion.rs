@@ -108,10 +108,12 @@ pub(super) fn assemble<Sp: Space>(
         },
     });
     let elapsed = began.elapsed();
+    let cost_terms = system.cost_terms(&discretization);
     Ok(Plan {
         status,
         method,
-        objective: system.cost_terms(&discretization).total(),
+        objective: cost_terms.total(),
+        cost_terms,
         tolerance,
         max_error,
         iterations: Vec::new(),

@@ -6,7 +6,7 @@ use crate::planner::Status;
 use crate::problem::Problem;
 use crate::report::format::{centimetres, degrees, shares, time};
 use crate::report::peaks::Peaks;
-use crate::solution::{Solution, Verification};
+use crate::solution::{CostTerm, Solution, Verification};
 
 /// A fact: what, how much, and where it needs one, what that means.
 pub(super) struct Fact {
@@ -59,7 +59,11 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
     let last = solution.trajectory.t.last().copied().unwrap_or(0.0);
     let mut facts = vec![
         fact("duration", format!("{last:.6} s").replace(".000000", "")),
-        fact("cost J", format!("{:.9}", solution.objective)),
+        Fact::new(
+            "cost J",
+            format!("{:.9}", solution.objective),
+            &terms(solution),
+        ),
         fact(
             "mesh",
             format!("{} segments, {} points", solution.segments, solution.points),
@@ -91,6 +95,15 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
     };
     facts.push(fact("planned in", spent));
     facts
+}
+
+/// The cost term by term; nothing where there is one term alone.
+fn terms(solution: &Solution) -> String {
+    let term = |term: &CostTerm| format!("{:.4e} for {}", term.value, term.formula);
+    match &solution.cost_terms[..] {
+        [] | [_] => String::new(),
+        terms => terms.iter().map(term).collect::<Vec<_>>().join(", "),
+    }
 }
 
 /// Why the numbers can be trusted, or what has not been checked.
