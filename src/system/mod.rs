@@ -6,6 +6,7 @@
 //! | `rows/`, `cost/` | path and boundary rows and cost terms, one file a kind |
 //! | `free_floating`, `formulation` | the problem they make |
 //! | `dispatch` | planar or spatial |
+//! | `pose_function` | derivatives of what depends on the attitude and the mass centre |
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
 //! | `limits`, `row_values`, `goal_error` | what gives way, and what was reached |
@@ -24,6 +25,7 @@ mod limits;
 mod linearization;
 mod motion;
 mod plant;
+mod pose_function;
 mod quintic;
 mod row_values;
 mod rows;

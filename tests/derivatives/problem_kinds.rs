@@ -12,6 +12,7 @@ pub fn loaded(robot: Model) -> Problem {
     let mut problem = Problem::builder("loaded", robot, 3.0, &vec![0.1; n], &vec![0.5; n]);
     problem.cost.final_base_attitude = vec![1.3; angles];
     problem.cost.final_base_position = vec![0.8; lengths];
+    problem.cost.base_position = vec![0.7; lengths];
     problem.cost.base_rate = vec![0.6; angles];
     problem.cost.joint_rate = vec![0.2; n];
     problem.cost.control = vec![0.1; n];

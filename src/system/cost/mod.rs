@@ -4,6 +4,7 @@
 //! [`EndTerm`]. [`PathCost`] and [`EndCost`] list the kinds, [`path`] and [`end`] make those that a
 //! problem has weights for. The cost, its derivatives and its breakdown follow from these lists.
 
+mod base_position;
 mod breakdown;
 mod control;
 mod effort;
@@ -24,6 +25,7 @@ use super::plant::Plant;
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Space;
 use crate::problem::{CostId, Problem};
+use base_position::BasePositionTerm;
 use control::ControlTerm;
 use rates::RateTerm;
 use terminal::{DurationTerm, FinalAttitudeTerm, FinalPositionTerm};
@@ -32,6 +34,7 @@ use torque::TorqueTerm;
 /// The kinds of terms of the path.
 #[derive(Debug, Clone)]
 pub(crate) enum PathCost {
+    BasePosition(BasePositionTerm),
     Rates(RateTerm),
     Control(ControlTerm),
     Torque(TorqueTerm),
@@ -40,6 +43,7 @@ pub(crate) enum PathCost {
 macro_rules! each_path {
     ($cost:expr, $term:ident => $do:expr) => {
         match $cost {
+            PathCost::BasePosition($term) => $do,
             PathCost::Rates($term) => $do,
             PathCost::Control($term) => $do,
             PathCost::Torque($term) => $do,
@@ -53,6 +57,7 @@ pub(crate) fn path<Sp: Space>(problem: &Problem) -> Vec<PathCost> {
     terms.extend(RateTerm::squares(problem).map(PathCost::Rates));
     terms.extend(ControlTerm::new(problem).map(PathCost::Control));
     terms.extend(TorqueTerm::new(problem).map(PathCost::Torque));
+    terms.extend(BasePositionTerm::new(problem).map(PathCost::BasePosition));
     terms.extend(RateTerm::matrix(problem, Sp::ANGLES).map(PathCost::Rates));
     terms
 }
