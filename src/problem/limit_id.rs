@@ -21,6 +21,8 @@ pub enum LimitId {
     BaseRate,
     /// Base attitude at t_f.
     FinalBaseAttitude,
+    /// Displacement of the base along the path.
+    BasePosition,
     /// Pairs of bodies that are kept apart.
     KeepOut,
     /// Joint positions at t_f, eq. (13).
@@ -56,6 +58,7 @@ impl LimitId {
             Self::BaseAttitude => "base attitude",
             Self::BaseRate => "base rate",
             Self::FinalBaseAttitude => "final attitude",
+            Self::BasePosition => "base displacement",
             Self::KeepOut => "kept apart",
             Self::FinalJoints => "final joint position",
             Self::EndEffector => "end effector",
@@ -73,6 +76,7 @@ impl LimitId {
             Self::BaseAttitude => "limits.base_attitude",
             Self::BaseRate => "limits.base_rate",
             Self::FinalBaseAttitude => "limits.final_base_attitude",
+            Self::BasePosition => "limits.base_position",
             Self::KeepOut => "limits.keep_out",
             Self::FinalJoints => "task.final.joints",
             Self::EndEffector => "task.final.end_effector",
@@ -93,7 +97,7 @@ impl LimitId {
     pub fn is_on_base(self) -> bool {
         matches!(
             self,
-            Self::BaseAttitude | Self::BaseRate | Self::FinalBaseAttitude
+            Self::BaseAttitude | Self::BaseRate | Self::FinalBaseAttitude | Self::BasePosition
         )
     }
 }

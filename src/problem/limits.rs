@@ -27,6 +27,9 @@ pub struct Limits {
     pub base_rate: Vec<Interval>,
     /// Base attitude at t_f, rad, as along the path.
     pub final_base_attitude: Vec<Interval>,
+    /// Displacement of the base from where it was at t₀, along the whole path, inertial axes, m; one
+    /// a length.
+    pub base_position: Vec<Interval>,
     /// Pairs kept apart along the path.
     pub keep_out: Vec<KeepOut>,
 }
@@ -61,7 +64,7 @@ impl<B> LimitEntry<B> {
 #[rustfmt::skip]
 macro_rules! table {
     ($limits:ident, $($borrow:tt)+) => {{
-        use ComponentKind::{BaseAttitude, BaseRate, Joint};
+        use ComponentKind::{BaseAttitude, BasePosition, BaseRate, Joint};
         use LimitId as Id;
         [
             LimitEntry { id: Id::JointPosition, components: Joint, bounds: $($borrow)+ $limits.joint_position, unit: Unit::position },
@@ -71,6 +74,7 @@ macro_rules! table {
             LimitEntry { id: Id::BaseAttitude, components: BaseAttitude, bounds: $($borrow)+ $limits.base_attitude, unit: Unit::position },
             LimitEntry { id: Id::BaseRate, components: BaseRate, bounds: $($borrow)+ $limits.base_rate, unit: Unit::rate },
             LimitEntry { id: Id::FinalBaseAttitude, components: BaseAttitude, bounds: $($borrow)+ $limits.final_base_attitude, unit: Unit::position },
+            LimitEntry { id: Id::BasePosition, components: BasePosition, bounds: $($borrow)+ $limits.base_position, unit: Unit::position },
         ]
     }};
 }
@@ -79,7 +83,7 @@ impl Limits {
     /// The limits of the joints of `robot`, and none on its base.
     pub fn of(robot: &Model) -> Self {
         let joints = robot.joints();
-        let (angles, _) = base_sizes(robot);
+        let (angles, lengths) = base_sizes(robot);
         let free = |count: usize| vec![Interval::FREE; count];
         Self {
             joint_position: joints
@@ -98,6 +102,7 @@ impl Limits {
             base_attitude: free(angles),
             base_rate: free(angles),
             final_base_attitude: free(angles),
+            base_position: free(lengths),
             keep_out: Vec::new(),
         }
     }

@@ -17,6 +17,7 @@ pub fn loaded(robot: Model) -> Problem {
     problem.cost.joint_rate = vec![0.2; n];
     problem.cost.control = vec![0.1; n];
     problem.limits.base_rate = vec![Interval::symmetric(0.6); angles];
+    problem.limits.base_position = vec![Interval::new(-0.3, 0.2); lengths];
     problem.build().unwrap()
 }
 

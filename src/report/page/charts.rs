@@ -124,7 +124,8 @@ impl Drawing<'_> {
             factor: 100.0,
             unit: " cm",
         };
-        let mut chart = self.chart(&subject, names, &moved(self.rows), &[]);
+        let limits = &self.problem.limits.base_position;
+        let mut chart = self.chart(&subject, names, &moved(self.rows), limits);
         if let Some(straight) = self.straight {
             chart = dotted(chart, straight, &moved(straight), subject.factor);
         }

@@ -5,6 +5,7 @@
 //! those that a problem has. All else (order, structure, limits that give way, units, warnings)
 //! follows from these lists.
 
+mod base_position;
 mod base_rate;
 mod block;
 mod end_effector;
@@ -27,6 +28,7 @@ use super::plant::Plant;
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Space;
 use crate::problem::Problem;
+use base_position::BasePositionRows;
 use base_rate::BaseRateRows;
 use keep_out::KeepOutRow;
 use rotation_angle::RotationAngleRow;
@@ -38,6 +40,7 @@ pub(crate) enum PathBlock<Sp: Space> {
     BaseRate(BaseRateRows),
     Torque(TorqueRows),
     RotationAngle(RotationAngleRow),
+    BasePosition(BasePositionRows),
     KeepOut(KeepOutRow<Sp>),
 }
 
@@ -47,6 +50,7 @@ macro_rules! each_path {
             PathBlock::BaseRate($rows) => $do,
             PathBlock::Torque($rows) => $do,
             PathBlock::RotationAngle($rows) => $do,
+            PathBlock::BasePosition($rows) => $do,
             PathBlock::KeepOut($rows) => $do,
         }
     };
@@ -58,6 +62,7 @@ pub(crate) fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<PathB
     blocks.extend(BaseRateRows::new(problem, plant).map(PathBlock::BaseRate));
     blocks.extend(TorqueRows::new(problem).map(PathBlock::Torque));
     blocks.extend(RotationAngleRow::path(problem, plant).map(PathBlock::RotationAngle));
+    blocks.extend(BasePositionRows::new(problem).map(PathBlock::BasePosition));
     blocks.extend(KeepOutRow::all(problem, plant).map(PathBlock::KeepOut));
     blocks
 }
@@ -67,6 +72,7 @@ pub(crate) fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<PathB
 pub(crate) enum EndBlock<Sp: Space> {
     EndEffector(EndEffectorRows<Sp>),
     RotationAngle(RotationAngleRow),
+    BasePosition(BasePositionRows),
     KeepOut(KeepOutRow<Sp>),
 }
 
@@ -75,6 +81,7 @@ macro_rules! each_end {
         match $block {
             EndBlock::EndEffector($rows) => $do,
             EndBlock::RotationAngle($rows) => $do,
+            EndBlock::BasePosition($rows) => $do,
             EndBlock::KeepOut($rows) => $do,
         }
     };
@@ -85,6 +92,7 @@ pub(crate) fn end<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<EndBlo
     let mut blocks = Vec::new();
     blocks.extend(EndEffectorRows::at_end(problem, plant).map(EndBlock::EndEffector));
     blocks.extend(RotationAngleRow::ends(problem, plant).map(EndBlock::RotationAngle));
+    blocks.extend(BasePositionRows::new(problem).map(EndBlock::BasePosition));
     blocks.extend(KeepOutRow::all(problem, plant).map(EndBlock::KeepOut));
     blocks
 }
