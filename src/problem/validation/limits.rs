@@ -9,7 +9,7 @@ use crate::problem::limit_id::LimitId;
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     every_bound(problem)?;
     rotation_angles(problem)?;
-    start_attitude(problem)
+    start(problem)
 }
 
 fn every_bound(problem: &ProblemBuilder) -> Checked {
@@ -48,15 +48,23 @@ fn rotation_angles(problem: &ProblemBuilder) -> Checked {
     Ok(())
 }
 
-/// The attitude at the start, zero, is within its bounds.
-fn start_attitude(problem: &ProblemBuilder) -> Checked {
-    let bounds = &problem.limits.base_attitude;
-    match bounds.iter().position(|bound| bound.violation(0.0) > 0.0) {
-        Some(i) => Err(error(
-            indexed(&LimitId::BaseAttitude.key(), i, bounds.len()),
-            format!("[{}, {}]", bounds[i].lower, bounds[i].upper),
-            "a range around 0, the attitude at the start",
-        )),
-        None => Ok(()),
+/// The base at the start is within its bounds along the path.
+fn start(problem: &ProblemBuilder) -> Checked {
+    for entry in problem.limits.entries() {
+        let what = match entry.id {
+            LimitId::BaseAttitude => "attitude",
+            LimitId::BasePosition => "position",
+            _ => continue,
+        };
+        let off = |bound: &Interval| bound.violation(0.0) > 0.0;
+        if let Some(i) = entry.bounds.iter().position(off) {
+            let Interval { lower, upper } = entry.bounds[i];
+            return Err(error(
+                indexed(&entry.id.key(), i, entry.bounds.len()),
+                format!("[{lower}, {upper}]"),
+                format!("a range around 0, the {what} at the start"),
+            ));
+        }
     }
+    Ok(())
 }
