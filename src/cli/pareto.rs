@@ -6,8 +6,8 @@ use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::Status;
-use crate::report::{FrontReport, OutputFolder};
-use crate::study::pareto::{Front, balanced, factors};
+use crate::report::{OutputFolder, ParetoReport};
+use crate::study::pareto::{ParetoFront, balanced, factors};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let (problem, notes) = balanced(&file.problem);
     let mut progress = Progress::start(&problem.name, false);
     let factors = factors(arguments.from, arguments.to, arguments.points);
-    let mut front = Front::new(&problem);
+    let mut front = ParetoFront::new(&problem);
     let swept = front.sweep(&factors, &mut |factor, event| {
         progress.retitle(&format!("{}, base × {factor:.3e}", problem.name));
         progress.show(event)
@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     progress.finish();
     swept.map_err(|error| Failure::planning(&file, None, error))?;
 
-    let report = FrontReport::of(&problem.name, front.points(), &notes);
+    let report = ParetoReport::of(&problem.name, front.points(), &notes);
     let to = ("pareto", &folder);
     let (text, figure) = (report.markdown(), report.figure());
     rows::write(to, &report, &text, &figure, Vec::new(), arguments.json)?;

@@ -5,7 +5,7 @@ use crate::nlp;
 use crate::ocp::Interval;
 use crate::problem::{LimitId, Unit};
 use crate::refine::Record;
-use crate::system::{Component, CostTerms, Metrics, Reached, Trajectory};
+use crate::system::{Component, CostTerms, GoalError, Metrics, Trajectory};
 use crate::transcription::Discretization;
 use crate::verify::Verification;
 use serde::{Deserialize, Serialize};
@@ -126,7 +126,7 @@ pub struct Plan {
     /// Figures a person asks for first.
     pub metrics: Metrics,
     /// The goals for the end effector, in the order of time, and how near they are met.
-    pub goals: Vec<Reached>,
+    pub goals: Vec<GoalError>,
     /// Why there is no plan; only where the status is infeasible.
     pub diagnosis: Option<Diagnosis>,
     /// What re-integration found; `None` before [`Plan::verify`], or where it failed.

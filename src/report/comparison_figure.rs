@@ -7,7 +7,7 @@ use crate::planner::Plan;
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Stroke, Width};
 use crate::problem::Problem;
 use crate::study::Comparison;
-use crate::system::{Trajectory, resampled, turned};
+use crate::system::{Trajectory, limited_angles, resampled};
 
 /// Segments of two points that a motion is drawn with.
 const SEGMENTS: usize = 150;
@@ -41,7 +41,7 @@ pub fn comparison_figure(problem: &Problem, found: &Comparison) -> Figure {
     for (i, &name) in names.iter().enumerate() {
         let limit = limits.base_attitude.get(i);
         let chart = panel("Angle (deg)", &curves, |motion| {
-            column(&turned(motion), i, degrees)
+            column(&limited_angles(motion), i, degrees)
         });
         panels.push((name, chart, Limit::new(limit, degrees, "°")));
     }

@@ -9,7 +9,7 @@ use crate::report::OutputError;
 use crate::simulate::SimulateError;
 use crate::solution::SolutionError;
 use crate::study::Comparison;
-use crate::study::pareto::Front;
+use crate::study::pareto::ParetoFront;
 use rustix::time::{ClockId, clock_gettime};
 
 /// Why nothing came of it.
@@ -159,7 +159,7 @@ impl<'m> Session<'m> {
     pub fn sweep(
         &mut self,
         name: &str,
-        front: &mut Front<'_>,
+        front: &mut ParetoFront<'_>,
         factors: &[f64],
     ) -> Result<(), ReproductionError> {
         let title = format!("{name}, base motion against joint effort");

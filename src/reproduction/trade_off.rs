@@ -4,14 +4,14 @@ use super::figures::Drawn;
 use super::{RELAXED, ReproductionError, Session};
 use crate::config::ProblemFile;
 use crate::planner::Status;
-use crate::report::FrontReport;
-use crate::study::pareto::{Front, FrontPoint, balanced, factors};
+use crate::report::ParetoReport;
+use crate::study::pareto::{ParetoFront, ParetoPoint, balanced, factors};
 
 /// Base motion against joint effort, as `pareto` does it unless told otherwise.
 #[derive(Debug, Clone)]
 pub struct TradeOff {
     /// The points, in the order of their factors.
-    pub points: Vec<FrontPoint>,
+    pub points: Vec<ParetoPoint>,
     notes: Vec<String>,
 }
 
@@ -25,7 +25,7 @@ impl TradeOff {
     /// Those of [`Session::sweep`].
     pub fn plan(session: &mut Session<'_>) -> Result<Self, ReproductionError> {
         let (problem, notes) = balanced(&ProblemFile::shipped(RELAXED)?.problem);
-        let mut front = Front::new(&problem);
+        let mut front = ParetoFront::new(&problem);
         session.sweep(&problem.name, &mut front, &factors(0.01, 100.0, 9))?;
         Ok(Self {
             points: front.points().to_vec(),
@@ -34,8 +34,8 @@ impl TradeOff {
     }
 
     /// Table and figure.
-    pub fn report(&self) -> FrontReport<'_> {
-        FrontReport::of(RELAXED, &self.points, &self.notes)
+    pub fn report(&self) -> ParetoReport<'_> {
+        ParetoReport::of(RELAXED, &self.points, &self.notes)
     }
 
     /// The figure.
@@ -59,7 +59,7 @@ impl TradeOff {
         let (Some(first), Some(last)) = (solved.next(), solved.next_back()) else {
             return "No two points converged.".into();
         };
-        let angle = |p: &FrontPoint| p.plan.metrics.final_base_attitude.to_degrees();
+        let angle = |p: &ParetoPoint| p.plan.metrics.final_base_attitude.to_degrees();
         format!(
             "Between the ends of the curve that converged, weights on the base {:.0} times as large \
              bring the final attitude from {:.2}° to {:.2}° and cost the joints {:.1} times the effort.",

@@ -107,7 +107,7 @@ fn metrics(found: &system::Metrics) -> Metrics {
     }
 }
 
-fn goal(found: &system::Reached) -> Goal {
+fn goal(found: &system::GoalError) -> Goal {
     Goal {
         key: found.key.clone(),
         t: found.t,

@@ -12,7 +12,7 @@ use crate::system::cost_terms;
 
 /// One point of the front.
 #[derive(Debug, Clone)]
-pub struct FrontPoint {
+pub struct ParetoPoint {
     /// Factor κ on the base's weights.
     pub factor: f64,
     /// Base motion B, without the factor.
@@ -23,7 +23,7 @@ pub struct FrontPoint {
     pub plan: Plan,
 }
 
-impl FrontPoint {
+impl ParetoPoint {
     /// κB + E.
     fn scalarised(&self, factor: f64) -> f64 {
         factor * self.base + self.joints
@@ -32,16 +32,16 @@ impl FrontPoint {
 
 /// A sweep over the factor.
 #[derive(Debug)]
-pub struct Front<'a> {
+pub struct ParetoFront<'a> {
     problem: &'a Problem,
     planner: Planner,
-    points: Vec<FrontPoint>,
+    points: Vec<ParetoPoint>,
 }
 
 /// Relative gain for which a point is planned again from a neighbour's motion.
 const GAIN: f64 = 1e-6;
 
-impl<'a> Front<'a> {
+impl<'a> ParetoFront<'a> {
     /// The front of `problem`, whose cost should have weights on both sides, see [`balanced`].
     pub fn new(problem: &'a Problem) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl<'a> Front<'a> {
     }
 
     /// The points found so far, in the order of their factors.
-    pub fn points(&self) -> &[FrontPoint] {
+    pub fn points(&self) -> &[ParetoPoint] {
         &self.points
     }
 
@@ -94,7 +94,7 @@ impl<'a> Front<'a> {
                     return Ok(());
                 }
                 let gained = point.scalarised(factor) < self.points[k].scalarised(factor);
-                let solved = |point: &FrontPoint| point.plan.status == Status::Solved;
+                let solved = |point: &ParetoPoint| point.plan.status == Status::Solved;
                 if solved(&point) && (gained || !solved(&self.points[k])) {
                     self.points[k] = point;
                 }
@@ -108,7 +108,7 @@ impl<'a> Front<'a> {
         factor: f64,
         from: Option<usize>,
         monitor: &mut dyn FnMut(f64, &Event<'_>) -> Control,
-    ) -> Result<FrontPoint, PlanError> {
+    ) -> Result<ParetoPoint, PlanError> {
         let problem = scaled(self.problem, factor)?;
         let usable = |status| status == Status::Solved || status == Status::NotConverged;
         let start = from
@@ -124,7 +124,7 @@ impl<'a> Front<'a> {
                 monitor(factor, event)
             })?;
         let terms = cost_terms(self.problem, &plan.discretization);
-        Ok(FrontPoint {
+        Ok(ParetoPoint {
             factor,
             base: terms.base(),
             joints: terms.joints(),

@@ -9,7 +9,7 @@
 //! | `pose_function` | derivatives of what depends on the attitude and the mass centre |
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
-//! | `limits`, `row_values`, `goal_error` | what gives way, and what was reached |
+//! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
 
 mod cost;
 mod derivatives;
@@ -18,7 +18,7 @@ mod drift;
 mod formulation;
 mod free_floating;
 mod functions;
-mod goal_error;
+mod goal_errors;
 mod guess;
 mod instant;
 mod limits;
@@ -36,17 +36,17 @@ mod trajectory;
 pub use cost::{CostTerm, CostTerms, JointEffort, Side};
 pub use dispatch::System;
 pub use free_floating::FreeFloating;
-pub use goal_error::{Reached, reached};
+pub use goal_errors::{GoalError, goal_errors};
 pub use guess::through;
 pub use limits::ElasticLimit;
 pub use motion::{Metrics, Trajectory};
 pub use row_values::cost_terms;
 pub use rows::{BoundId, Component, Measure, Row};
 pub use straight_line::{StraightLine, straight_line, straight_motion};
-pub use trajectory::{resampled, turned};
+pub use trajectory::{limited_angles, resampled};
 
 pub(crate) use dispatch::with_system;
-pub(crate) use goal_error::gaps;
+pub(crate) use goal_errors::goal_errors_in;
 pub(crate) use guess::{JointPath, along};
 pub(crate) use quintic::quintic;
 pub(crate) use rows::ROTATION_ANGLE;

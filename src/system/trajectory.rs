@@ -65,7 +65,7 @@ pub(crate) fn trajectory<Sp: Space>(
 
 /// The angles that limits on the base attitude are about, rad: those of each row, or its rotation
 /// angle.
-pub fn turned(trajectory: &Trajectory) -> Vec<Vec<f64>> {
+pub fn limited_angles(trajectory: &Trajectory) -> Vec<Vec<f64>> {
     let rows = trajectory.base_attitude.iter();
     match trajectory.attitude {
         Some(attitude) if !attitude.is_angles() => rows
@@ -87,7 +87,7 @@ pub(crate) fn metrics(trajectory: &Trajectory) -> Metrics {
             .sqrt()
     };
     let last = |rows: &[Vec<f64>]| rows.last().cloned().unwrap_or_default();
-    let turned = turned(trajectory);
+    let turned = limited_angles(trajectory);
     Metrics {
         max_base_attitude: peak(&turned),
         final_base_attitude: peak(&[last(&turned)]),

@@ -11,7 +11,7 @@ use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
 use crate::problem::Problem;
 use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
 use crate::system::{
-    FreeFloating, JointPath, System, along, gaps, metrics, trajectory, with_system,
+    FreeFloating, JointPath, System, along, goal_errors_in, metrics, trajectory, with_system,
 };
 use std::time::{Duration, Instant};
 
@@ -229,7 +229,7 @@ fn assemble<Sp: Space>(
         tolerance: problem.mesh.tolerance,
         max_error,
         metrics: metrics(&trajectory),
-        goals: gaps(system, &outcome.trajectory),
+        goals: goal_errors_in(system, &outcome.trajectory),
         timing: timing(&outcome.statistics, began.elapsed()),
         linear_solver: linear_solver(solver, &outcome.statistics),
         iterations: outcome.records,

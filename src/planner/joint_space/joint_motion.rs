@@ -12,7 +12,7 @@ use crate::planner::words::sentence;
 use crate::planner::{Diagnosis, LimitFinding, Method, Plan, PlanError, Starts, Status, Timing};
 use crate::problem::{LimitId, Problem, ProblemError, Unit};
 use crate::refine::{Errors, midpoint_errors};
-use crate::system::{Component, FreeFloating, metrics, reached, trajectory};
+use crate::system::{Component, FreeFloating, goal_errors_in, metrics, trajectory};
 use crate::transcription::Discretization;
 use std::time::Instant;
 
@@ -120,7 +120,7 @@ pub(super) fn assemble<Sp: Space>(
         iterate: Iterate::default(),
         linear_solver: "none".into(),
         metrics: metrics(&trajectory),
-        goals: reached(problem, &discretization),
+        goals: goal_errors_in(system, &discretization),
         trajectory,
         discretization,
         diagnosis,

@@ -24,7 +24,7 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
     let began = Instant::now();
     let method = Method::Matpm;
     rest_to_rest(method, problem)?;
-    let motion = Motion::new(problem);
+    let motion = BangCruiseBang::new(problem);
     let mut plan = with_system!(&System::new(problem), system => assemble(problem, system, method, &motion, began))?;
     if let Some(diagnosis) = &mut plan.diagnosis {
         too_fast(problem, &motion, diagnosis);
@@ -34,7 +34,7 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
 
 /// Names the least rates with which the joints that are too slow would be there in time; what the
 /// profile without a bound reaches is twice as much.
-fn too_fast(problem: &Problem, motion: &Motion, diagnosis: &mut Diagnosis) {
+fn too_fast(problem: &Problem, motion: &BangCruiseBang, diagnosis: &mut Diagnosis) {
     let joints = problem.robot.joints();
     let mut sentences = Vec::new();
     for (j, joint) in motion.joints.iter().enumerate().filter(|(_, j)| j.late) {
@@ -100,12 +100,12 @@ impl Profile {
     }
 }
 
-struct Motion {
+struct BangCruiseBang {
     joints: Vec<Profile>,
     breakpoints: Vec<f64>,
 }
 
-impl Motion {
+impl BangCruiseBang {
     fn new(problem: &Problem) -> Self {
         let duration = duration(problem);
         let task = &problem.task;
@@ -135,7 +135,7 @@ impl Motion {
     }
 }
 
-impl JointMotion for Motion {
+impl JointMotion for BangCruiseBang {
     fn breakpoints(&self) -> &[f64] {
         &self.breakpoints
     }

@@ -7,7 +7,7 @@ use crate::ocp::Interval;
 use crate::plot::{Axis, Chart, Colour, Figure, Marker, Series, Stroke, Width};
 use crate::problem::Problem;
 use crate::solution::{Iteration, Solution};
-use crate::system::{Trajectory, resampled, turned};
+use crate::system::{Trajectory, limited_angles, resampled};
 use crate::transcription::Discretization;
 
 /// Even segments that a curve is drawn with, beside those of its mesh.
@@ -101,7 +101,12 @@ impl Drawing<'_> {
             factor: 1f64.to_degrees(),
             unit: "°",
         };
-        let mut chart = self.chart(&subject, names, &turned(self.rows), &limits.base_attitude);
+        let mut chart = self.chart(
+            &subject,
+            names,
+            &limited_angles(self.rows),
+            &limits.base_attitude,
+        );
         let last = self.rows.t.last().copied().unwrap_or(0.0);
         let mut label = "bound at the end";
         for bound in distinct(&limits.final_base_attitude) {
@@ -111,7 +116,7 @@ impl Drawing<'_> {
             label = "";
         }
         if let Some(straight) = self.straight {
-            chart = dotted(chart, straight, &turned(straight), subject.factor);
+            chart = dotted(chart, straight, &limited_angles(straight), subject.factor);
         }
         panel(&subject, chart)
     }

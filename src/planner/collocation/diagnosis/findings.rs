@@ -18,7 +18,7 @@ pub(in crate::planner) fn findings<Sp: Space>(
     limits: &[ElasticLimit],
     trajectory: &Discretization,
 ) -> Vec<LimitFinding> {
-    let reached = Reached::of(system, trajectory);
+    let reached = Values::of(system, trajectory);
     let mut found: Vec<LimitFinding> = Vec::new();
     for limit in limits {
         if limit.id.component == Component::RotationAngle {
@@ -62,7 +62,7 @@ pub(in crate::planner) fn findings<Sp: Space>(
 }
 
 /// Values of all that is bounded, along a trajectory.
-struct Reached {
+struct Values {
     /// One row a node.
     states: Vec<Vec<f64>>,
     /// One row a point; with the value at t_f, kept within its limits.
@@ -73,7 +73,7 @@ struct Reached {
     way_points: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
-impl Reached {
+impl Values {
     fn of<Sp: Space>(system: &FreeFloating<Sp>, trajectory: &Discretization) -> Self {
         let nodes = 0..=trajectory.mesh.points();
         Self {

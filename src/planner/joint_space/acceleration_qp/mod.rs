@@ -74,10 +74,10 @@ fn follow<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
     monitor: &mut dyn FnMut(&Event<'_>) -> Control,
-) -> Motion {
+) -> ConstantAccelerations {
     let h = duration(problem) / STEPS as f64;
     let mut stepper = Stepper::new(problem, system);
-    let mut motion = Motion::new(problem, h);
+    let mut motion = ConstantAccelerations::new(problem, h);
     for k in 0..STEPS {
         let event = Event::Step {
             step: k + 1,
@@ -101,7 +101,7 @@ fn follow<Sp: Space>(
 fn finish<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
-    motion: &Motion,
+    motion: &ConstantAccelerations,
     began: time::Instant,
 ) -> Result<Plan, PlanError> {
     let mut plan = assemble(problem, system, Method::AccelerationQp, motion, began)?;
@@ -281,7 +281,7 @@ fn arrival(way: f64, rate: f64, left: usize, h: f64) -> f64 {
 }
 
 /// Constant accelerations between equidistant states.
-struct Motion {
+struct ConstantAccelerations {
     breakpoints: Vec<f64>,
     states: Vec<State>,
     accelerations: Vec<Vec<f64>>,
@@ -289,7 +289,7 @@ struct Motion {
     stopped: bool,
 }
 
-impl Motion {
+impl ConstantAccelerations {
     fn new(problem: &Problem, h: f64) -> Self {
         let (angles, _) = Problem::base_sizes(&problem.robot);
         let start = State {
@@ -315,7 +315,7 @@ impl Motion {
     }
 }
 
-impl JointMotion for Motion {
+impl JointMotion for ConstantAccelerations {
     fn breakpoints(&self) -> &[f64] {
         &self.breakpoints
     }

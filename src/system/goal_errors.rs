@@ -9,7 +9,7 @@ use crate::transcription::Discretization;
 
 /// A goal for the end effector, and how near it was met.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reached {
+pub struct GoalError {
     /// Key in the problem file: `task.final.end_effector`, `task.way_points[0].end_effector`.
     pub key: String,
     /// When, s.
@@ -21,11 +21,14 @@ pub struct Reached {
 }
 
 /// Every goal of `problem` for the end effector, in the order of time, as `plan` meets it.
-pub fn reached(problem: &Problem, plan: &Discretization) -> Vec<Reached> {
-    with_system!(&System::new(problem), system => gaps(system, plan))
+pub fn goal_errors(problem: &Problem, plan: &Discretization) -> Vec<GoalError> {
+    with_system!(&System::new(problem), system => goal_errors_in(system, plan))
 }
 
-pub(crate) fn gaps<Sp: Space>(system: &FreeFloating<Sp>, plan: &Discretization) -> Vec<Reached> {
+pub(crate) fn goal_errors_in<Sp: Space>(
+    system: &FreeFloating<Sp>,
+    plan: &Discretization,
+) -> Vec<GoalError> {
     let mut x = vec![0.0; plan.states];
     let mut u = vec![0.0; plan.controls];
     let mut gap = |key: String, goal: &EndEffectorRows<Sp>, fraction: f64| {
@@ -33,14 +36,14 @@ pub(crate) fn gaps<Sp: Space>(system: &FreeFloating<Sp>, plan: &Discretization) 
         let t = fraction * plan.duration;
         let rows = system.goal_values(goal, &x, t);
         let (distance, angle) = goal.gap(&rows);
-        Reached {
+        GoalError {
             key,
             t,
             distance,
             angle,
         }
     };
-    let mut found: Vec<Reached> = system
+    let mut found: Vec<GoalError> = system
         .way_point_goals()
         .map(|(w, fraction, goal)| {
             gap(format!("task.way_points[{w}].end_effector"), goal, fraction)

@@ -3,16 +3,16 @@
 use super::Sheet;
 use super::rows::Rows;
 use crate::planner::Status;
-use crate::study::pareto::FrontPoint;
+use crate::study::pareto::ParetoPoint;
 use crate::system::JointEffort;
 use serde::Serialize;
 
 /// The trade-off between the base's motion and the joints' effort.
-pub type FrontReport<'a> = Rows<'a, FrontRow>;
+pub type ParetoReport<'a> = Rows<'a, ParetoRow>;
 
 /// One point of the curve; SI units and radians.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FrontRow {
+pub struct ParetoRow {
     /// On the weights of the base.
     pub(super) factor: f64,
     pub(super) status: Status,
@@ -36,9 +36,9 @@ pub struct FrontRow {
     pub(super) seconds: f64,
 }
 
-impl FrontRow {
+impl ParetoRow {
     /// The row of one point.
-    fn of(point: &FrontPoint) -> Self {
+    fn of(point: &ParetoPoint) -> Self {
         let plan = &point.plan;
         let effort = JointEffort::of(&plan.trajectory, &plan.discretization.mesh);
         let metrics = &plan.metrics;
@@ -69,12 +69,12 @@ impl FrontRow {
     }
 }
 
-impl<'a> FrontReport<'a> {
+impl<'a> ParetoReport<'a> {
     /// The report on `points` for the problem `name`.
-    pub fn of(name: &'a str, points: &[FrontPoint], notes: &'a [String]) -> Self {
+    pub fn of(name: &'a str, points: &[ParetoPoint], notes: &'a [String]) -> Self {
         Self {
             name,
-            rows: points.iter().map(FrontRow::of).collect(),
+            rows: points.iter().map(ParetoRow::of).collect(),
             notes,
         }
     }

@@ -1,15 +1,15 @@
 //! The trade-off curve as a figure.
 
-use super::FrontReport;
-use super::front::FrontRow;
+use super::ParetoReport;
+use super::pareto::ParetoRow;
 use crate::plot::{Axis, Chart, Figure, Marker, Series, Width};
 
-impl FrontReport<'_> {
+impl ParetoReport<'_> {
     /// Base motion over joint effort, and the base's angles over the factor; solved points only.
     pub fn figure(&self) -> Figure {
-        let solved: Vec<&FrontRow> = self.rows.iter().filter(|row| row.is_solved()).collect();
+        let solved: Vec<&ParetoRow> = self.rows.iter().filter(|row| row.is_solved()).collect();
         let of =
-            |value: fn(&FrontRow) -> f64| solved.iter().map(|row| value(row)).collect::<Vec<_>>();
+            |value: fn(&ParetoRow) -> f64| solved.iter().map(|row| value(row)).collect::<Vec<_>>();
         let (base, joints) = (of(|row| row.base_motion), of(|row| row.joint_effort));
         let curve = Chart::new(
             axis("Joint effort E", &joints),
