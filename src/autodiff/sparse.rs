@@ -71,6 +71,14 @@ pub struct SparseDerivatives<F: Function> {
     second: Bench<F, Second>,
 }
 
+impl<F: Function> std::fmt::Debug for SparseDerivatives<F> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SparseDerivatives")
+            .field("sparsity", &self.sparsity)
+            .finish_non_exhaustive()
+    }
+}
+
 impl<F: Function> SparseDerivatives<F> {
     /// Plans the sweeps for the given pattern.
     pub fn new(f: &F, sparsity: Sparsity) -> Self {

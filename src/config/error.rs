@@ -24,6 +24,7 @@ impl fmt::Display for Place {
 
 /// An input that cannot be used. Its message is always one line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ConfigError {
     /// A file that cannot be read.
     #[error("{place}: cannot be read: {reason}; expected {expected}")]

@@ -48,6 +48,7 @@ pub struct Experiment {
 
 /// Where a plan comes from; paths as found from the fit file.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum PlanSource {
     /// A saved one.
     Solution(PathBuf),

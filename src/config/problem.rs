@@ -11,6 +11,7 @@ use std::path::Path;
 
 /// A problem and the files it was read from.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ProblemFile {
     /// The problem, validated.
     pub problem: Problem,

@@ -6,6 +6,7 @@ use crate::problem::ProblemError;
 
 /// Why there is no plan at all.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlanError {
     /// The problem cannot be.
     #[error(transparent)]

@@ -4,6 +4,7 @@ use crate::refine;
 
 /// A step of planning, for a progress line; the monitor's answer can stop it.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub enum Event<'a> {
     /// A step of the refinement loop.
     Refinement(refine::Event<'a>),

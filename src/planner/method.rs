@@ -4,6 +4,7 @@ use crate::refine;
 
 /// How a plan is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// Direct collocation of the problem itself, refined adaptively or globally.
     Collocation(refine::Method),

@@ -48,6 +48,7 @@ impl Status {
 
 /// One limit that cannot hold.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct LimitFinding {
     /// The limit.
     pub limit: LimitId,
@@ -67,6 +68,7 @@ pub struct LimitFinding {
 
 /// How many starts a search was begun from.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Starts {
     /// All of them.
     pub tried: usize,
@@ -76,6 +78,7 @@ pub struct Starts {
 
 /// Why a problem is infeasible.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Diagnosis {
     /// The limits that cannot hold, those relaxed together.
     pub limits: Vec<LimitFinding>,
@@ -87,6 +90,7 @@ pub struct Diagnosis {
 
 /// Where the time went.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Timing {
     /// Everything outside the solver: sparsity, meshes, errors, trajectory.
     pub setup: Duration,
@@ -102,6 +106,7 @@ pub struct Timing {
 
 /// Result of planning: complete whatever the status, so that the best trajectory is kept.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Plan {
     /// How it ended.
     pub status: Status,

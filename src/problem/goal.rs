@@ -2,6 +2,7 @@
 
 /// The frame a task-space goal is given in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum GoalFrame {
     /// Inertial axes, origin where the system's mass centre is at t₀ (Remark 1).
     Inertial,

@@ -5,6 +5,7 @@ use crate::ocp::Interval;
 
 /// When a way-point is passed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Moment {
     /// Seconds after t₀; only where the duration is fixed.
     Time(f64),

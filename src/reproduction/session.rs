@@ -79,6 +79,12 @@ pub struct Session<'m> {
     monitor: &'m mut dyn FnMut(Step<'_>) -> Control,
 }
 
+impl std::fmt::Debug for Session<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Session").finish_non_exhaustive()
+    }
+}
+
 impl<'m> Session<'m> {
     /// A session that tells `monitor` of every step.
     pub fn new(monitor: &'m mut dyn FnMut(Step<'_>) -> Control) -> Self {

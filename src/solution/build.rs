@@ -2,6 +2,7 @@
 
 /// Facts recorded when the program was compiled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Build {
     /// Version of the package.
     pub version: &'static str,

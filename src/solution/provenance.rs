@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 /// What was solved by what.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Provenance {
     /// Version of this program with its git revision.
     pub version: String,
@@ -26,6 +27,7 @@ pub struct Provenance {
 
 /// The problem file and what was laid over it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ProblemSource {
     /// Path, as given.
     pub path: String,
@@ -37,6 +39,7 @@ pub struct ProblemSource {
 
 /// A file by its path and text.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct TextFile {
     /// Path, as found from the problem file.
     pub path: String,

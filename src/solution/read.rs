@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// A solution file that cannot be used.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum SolutionError {
     /// It cannot be read.
     #[error("{}: cannot be read: {source}; expected a solution.json", path.display())]
@@ -60,6 +61,7 @@ pub enum SolutionError {
 
 /// A saved solution with the problem it is a plan for.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Saved {
     /// The file.
     pub solution: Solution,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// The whole file. SI units and radians; numbers that are not finite are null.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Solution {
     /// Version of the format, 1.
     pub schema: u32,
@@ -60,6 +61,7 @@ pub struct Solution {
 
 /// A term of the cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CostTerm {
     /// Key of its weights in the problem file.
     pub key: String,
@@ -72,6 +74,7 @@ pub struct CostTerm {
 
 /// One mesh iteration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Iteration {
     /// Collocation points.
     pub points: usize,
@@ -100,6 +103,7 @@ pub struct Iteration {
 
 /// A mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Mesh {
     /// Fractions of the duration from 0 to 1; length segments + 1.
     pub breakpoints: Vec<f64>,
@@ -109,6 +113,7 @@ pub struct Mesh {
 
 /// The planned motion, one row a time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Trajectory {
     /// Times of the nodes, s; the last is t_f.
     pub t: Vec<f64>,
@@ -134,6 +139,7 @@ pub struct Trajectory {
 
 /// Figures a person asks for first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Metrics {
     /// Largest magnitude of any base attitude angle, or else of the rotation angle, rad.
     #[serde(with = "number")]
@@ -157,6 +163,7 @@ pub struct Metrics {
 
 /// A goal for the end effector.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Goal {
     /// Key in the problem file.
     pub key: String,
@@ -170,6 +177,7 @@ pub struct Goal {
 
 /// Largest differences between the plan and its independent re-integration.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Verification {
     /// Base attitude, rad.
     #[serde(with = "number")]
@@ -201,6 +209,7 @@ pub struct Verification {
 
 /// Why a problem is infeasible.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Diagnosis {
     /// One sentence for a person, in degrees and centimetres.
     pub summary: String,
@@ -214,6 +223,7 @@ pub struct Diagnosis {
 
 /// One limit that cannot hold; bounds are [lower, upper], null where there is none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct LimitFinding {
     /// Key in the problem file.
     pub key: String,
@@ -233,6 +243,7 @@ pub struct LimitFinding {
 
 /// Where the time went, s.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Timing {
     /// Everything outside the solver.
     #[serde(with = "number")]
@@ -253,6 +264,7 @@ pub struct Timing {
 
 /// Primal and dual values of the last programme, in its own order and scaling.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Iterate {
     /// Variables.
     pub x: Vec<f64>,

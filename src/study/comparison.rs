@@ -7,6 +7,7 @@ use crate::refine;
 
 /// What one planner made of the task.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Entry {
     /// The planner.
     pub method: Method,
@@ -16,6 +17,7 @@ pub struct Entry {
 
 /// One task by every planner.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Comparison {
     /// In the order of [`Method::ALL`], A-RPM first; fewer where it was interrupted.
     pub entries: Vec<Entry>,

@@ -12,6 +12,7 @@ use crate::system::cost_terms;
 
 /// One point of the front.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ParetoPoint {
     /// Factor κ on the base's weights.
     pub factor: f64,

@@ -6,6 +6,7 @@ use crate::problem::Problem;
 
 /// The optimal control problem of a task, in the plane where its robot moves in one.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub enum System {
     /// All joint axes are parallel: the base attitude is one angle.
     Planar(Box<FreeFloating<Planar>>),

@@ -9,6 +9,7 @@ use crate::transcription::Discretization;
 
 /// A goal for the end effector, and how near it was met.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct GoalError {
     /// Key in the problem file: `task.final.end_effector`, `task.way_points[0].end_effector`.
     pub key: String,

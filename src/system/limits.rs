@@ -7,6 +7,7 @@ use crate::ocp::{LimitGroup, Limited};
 
 /// A limit that may give way, with all bounds of the programme that then do.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ElasticLimit {
     /// The limit, and which component of it; that along the path, where it also holds at t_f.
     pub id: BoundId,

@@ -4,6 +4,7 @@ use crate::dynamics::attitude::SpatialAttitude;
 
 /// The planned motion, one row a time; rows are as long as the quantity has components.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Trajectory {
     /// Times, s; the last is t_f.
     pub t: Vec<f64>,
@@ -27,6 +28,7 @@ pub struct Trajectory {
 
 /// Figures a person asks for first.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Metrics {
     /// Largest magnitude of any base attitude angle, or else of the rotation angle, rad.
     pub max_base_attitude: f64,

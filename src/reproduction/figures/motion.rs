@@ -26,6 +26,7 @@ pub struct Sample {
 }
 
 /// The motion of a planar plan at any time, from the polynomials of its segments.
+#[derive(Debug)]
 pub struct Motion<'a> {
     case: &'a Case,
     system: FreeFloating<Planar>,

@@ -4,6 +4,7 @@ use crate::problem::CostId;
 
 /// Whose motion a term of the cost is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Side {
     /// The base's alone.
     Base,
@@ -15,6 +16,7 @@ pub enum Side {
 
 /// A term of the cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct CostTerm {
     /// The weights behind it.
     pub id: CostId,
@@ -26,6 +28,7 @@ pub struct CostTerm {
 
 /// The terms of (14) that have weights, by the quadrature of (25). Their sum is J.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct CostTerms {
     /// In no particular order; the matrix Λ gives up to three, one a side.
     pub terms: Vec<CostTerm>,

@@ -5,6 +5,7 @@ use crate::system::Trajectory;
 
 /// What the joints spend, all joints alike.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct JointEffort {
     /// ∫‖u‖² dt, rad²/s³ (m² for sliding joints).
     pub control: f64,

@@ -29,6 +29,7 @@ pub enum Component {
 
 /// Which limit, and which component of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BoundId {
     /// The limit.
     pub limit: LimitId,
@@ -51,6 +52,7 @@ impl BoundId {
 
 /// How the value of a row measures the quantity it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Measure {
     /// It is the quantity.
     Itself,
@@ -63,6 +65,7 @@ pub enum Measure {
 
 /// A state, control or row with its bounds, as the programme has it and as a person reads it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Row {
     /// Which limit it belongs to.
     pub id: BoundId,
