@@ -4,6 +4,7 @@ use super::plant::Plant;
 use super::rows::{
     BoundId, Component, EndBlock, EndRows, PathBlock, PathRows, Row, WayPointRows, held,
 };
+use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::ocp::{Formulation, Interval, Quantity};
@@ -29,71 +30,34 @@ impl Bounded {
         end: &[EndBlock<Sp>],
     ) -> Self {
         let limits = &problem.limits;
-        let task = &problem.task;
-        let joints = problem.robot.joints();
         let [along, last] = attitude_bounds(problem, plant);
-        let attitude = |limit, bounds: &[Interval]| -> Vec<Row> {
-            let rows = bounds.iter().zip(plant.attitude.names()).enumerate();
-            rows.map(|(i, (bounds, name))| {
-                let component = match plant.attitude.is_angles() {
-                    true => Component::Attitude(i),
-                    // All that bounds the rotation angle gives way together.
-                    false => Component::RotationAngle,
-                };
-                let id = BoundId::new(limit, component);
-                Row::new(id, Unit::Radian, *name, *bounds)
-            })
-            .collect()
+        let attitude = |limit, bounds| attitude_rows(plant, limit, bounds);
+        let joint = |limit, what, unit, bounds: &[Interval]| {
+            joint_rows(problem, (limit, what, unit), bounds)
         };
-        let joint = |limit, what: &str, unit: fn(_) -> Unit, bounds: &[Interval]| -> Vec<Row> {
-            let rows = bounds.iter().enumerate();
-            rows.map(|(j, bounds)| {
-                let component = match limit {
-                    LimitId::JointVelocity => Component::JointRate(j),
-                    _ => Component::Joint(j),
-                };
-                let id = BoundId::new(limit, component);
-                let name = format!("joint {} {what}", j + 1);
-                Row::new(id, unit(joints[j].kind), name, *bounds)
-            })
-            .collect()
-        };
-        let goal: Vec<Interval> = task
-            .final_joints
-            .iter()
-            .zip(&task.free_joints)
-            .map(|(&at, &free)| {
-                if free {
-                    Interval::FREE
-                } else {
-                    Interval::fixed(at)
-                }
-            })
-            .collect();
-        let rest = vec![Interval::fixed(0.0); joints.len()];
+        let position = joint(
+            LimitId::JointPosition,
+            "position",
+            Unit::position,
+            &limits.joint_position,
+        );
+        let rate = joint(
+            LimitId::JointVelocity,
+            "rate",
+            Unit::rate,
+            &limits.joint_velocity,
+        );
+        let goal = joint(
+            LimitId::FinalJoints,
+            "position",
+            Unit::position,
+            &goal(problem),
+        );
+        let rest = vec![Interval::fixed(0.0); plant.joints()];
+        let rest = joint(LimitId::FinalJoints, "rate", Unit::rate, &rest);
         Self {
-            states: [
-                attitude(LimitId::BaseAttitude, &along),
-                joint(
-                    LimitId::JointPosition,
-                    "position",
-                    Unit::position,
-                    &limits.joint_position,
-                ),
-                joint(
-                    LimitId::JointVelocity,
-                    "rate",
-                    Unit::rate,
-                    &limits.joint_velocity,
-                ),
-            ]
-            .concat(),
-            terminal: [
-                attitude(LimitId::FinalBaseAttitude, &last),
-                joint(LimitId::FinalJoints, "position", Unit::position, &goal),
-                joint(LimitId::FinalJoints, "rate", Unit::rate, &rest),
-            ]
-            .concat(),
+            states: [attitude(LimitId::BaseAttitude, &along), position, rate].concat(),
+            terminal: [attitude(LimitId::FinalBaseAttitude, &last), goal, rest].concat(),
             controls: joint(
                 LimitId::Control,
                 "control",
@@ -104,6 +68,53 @@ impl Bounded {
             boundary: end.iter().flat_map(EndRows::rows).cloned().collect(),
         }
     }
+}
+
+/// Rows of the attitude parameters.
+fn attitude_rows<Sp: Space>(plant: &Plant<Sp>, limit: LimitId, bounds: &[Interval]) -> Vec<Row> {
+    let rows = bounds.iter().zip(plant.attitude.names()).enumerate();
+    rows.map(|(i, (bounds, name))| {
+        let component = match plant.attitude.is_angles() {
+            true => Component::Attitude(i),
+            // All that bounds the rotation angle gives way together.
+            false => Component::RotationAngle,
+        };
+        let id = BoundId::new(limit, component);
+        Row::new(id, Unit::Radian, *name, *bounds)
+    })
+    .collect()
+}
+
+/// Rows with one component a joint: the limit, what a person calls it, its unit.
+fn joint_rows(
+    problem: &Problem,
+    (limit, what, unit): (LimitId, &str, fn(JointKind) -> Unit),
+    bounds: &[Interval],
+) -> Vec<Row> {
+    let joints = problem.robot.joints();
+    let rows = bounds.iter().enumerate();
+    rows.map(|(j, bounds)| {
+        let component = match limit {
+            LimitId::JointVelocity => Component::JointRate(j),
+            _ => Component::Joint(j),
+        };
+        let id = BoundId::new(limit, component);
+        let name = format!("joint {} {what}", j + 1);
+        Row::new(id, unit(joints[j].kind), name, *bounds)
+    })
+    .collect()
+}
+
+/// Joint positions at t_f, free where they are for the planner to find.
+fn goal(problem: &Problem) -> Vec<Interval> {
+    let task = &problem.task;
+    let joints = task.final_joints.iter().zip(&task.free_joints);
+    joints
+        .map(|(&at, &free)| match free {
+            true => Interval::FREE,
+            false => Interval::fixed(at),
+        })
+        .collect()
 }
 
 /// Bounds of the attitude parameters along the path and at t_f.
