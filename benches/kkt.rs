@@ -1,5 +1,5 @@
-//! The multifrontal linear solver on the systems of whole solves, beside MUMPS where `scripts/bench-kkt.sh` has
-//! built a way to call it.
+//! The multifrontal linear solver on the systems of whole solves, beside MUMPS where
+//! `scripts/bench-kkt.sh` has built a way to call it.
 //!
 //! Every system of a solve, and the same shifted as Ipopt shifts for wrong inertia, is factorised
 //! and solved some times by one and then by the other: a solve uses one of them alone, and neither
