@@ -167,7 +167,10 @@ fn costs_and_meshes_that_cannot_be() {
 fn wrist() -> Model {
     let body = |name: &str, mass: f64| Body {
         name: name.into(),
-        inertia: Inertia::new(mass, Vector3::zeros(), Matrix3::identity() * mass).unwrap(),
+        inertia: match mass {
+            0.0 => Inertia::massless(),
+            _ => Inertia::new(mass, Vector3::zeros(), Matrix3::identity() * mass).unwrap(),
+        },
     };
     let joint = |name: &str, parent, axis, mass| Joint {
         name: name.into(),

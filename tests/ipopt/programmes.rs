@@ -19,8 +19,11 @@ pub struct Dense {
     pub h: Lagrangian,
     /// Panics in the evaluation with this number, counted from 0.
     pub panic_at: Option<u32>,
-    /// The Hessian with this number, counted from 0, is not finite, and no error says so.
+    /// Hessians from this number on, counted from 0, are not finite in the first attempt, and no
+    /// error says so.
     pub bad_hessian: Option<u32>,
+    /// Where the first Hessian was asked for, and how often: once for each attempt.
+    pub first: (Vec<f64>, u32),
     pub hessians: u32,
     pub evaluations: u32,
     pub undefined: u32,
@@ -40,6 +43,7 @@ impl Dense {
             h,
             panic_at: None,
             bad_hessian: None,
+            first: (Vec::new(), 0),
             hessians: 0,
             evaluations: 0,
             undefined: 0,
@@ -144,7 +148,12 @@ impl Nlp for Dense {
     ) -> Result<(), Undefined> {
         (self.h)(x, sigma, multipliers, values);
         self.check(values)?;
-        if self.bad_hessian == Some(self.hessians) {
+        if self.hessians == 0 {
+            self.first.0 = x.to_vec();
+        }
+        self.first.1 += u32::from(self.first.0 == x);
+        let bad = self.bad_hessian.is_some_and(|bad| self.hessians >= bad);
+        if bad && self.first.1 == 1 {
             values[0] = f64::NAN;
         }
         self.hessians += 1;
