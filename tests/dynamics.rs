@@ -8,7 +8,7 @@ use fastrand::Rng;
 use ffsm_ipopt::autodiff::{Dual, HyperDual};
 use ffsm_ipopt::dynamics::attitude::{Attitude, PlanarAngle, SpatialAttitude};
 use ffsm_ipopt::dynamics::space::{Space, Spatial, Vector};
-use ffsm_ipopt::dynamics::{Body, Data, Inertia, Model, Tree};
+use ffsm_ipopt::dynamics::{Body, Data, Inertia, Model, Placement, Tree};
 use ffsm_ipopt::nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use ffsm_ipopt::verify::bodies::{BaseMotion, Bodies, orientation};
 use ffsm_ipopt::verify::mass_matrix::MassMatrix;
@@ -481,5 +481,91 @@ fn the_rotation_angle_and_the_change_of_description() {
             _ => -1.0,
         };
         assert!((eta[0] - last).abs() < 1e-12, "{eta:?}");
+    }
+}
+
+/// The point `mount` as seen from `other` and its derivatives, by formula and by hyper-dual numbers.
+fn check_relative_position<Sp: Space>(tree: &Tree<Sp>, links: [Option<usize>; 2], rng: &mut Rng) {
+    type Second = HyperDual<1, 1>;
+    let n = tree.joint_count();
+    let [mount, other] = links.map(|link| {
+        let placement = Placement {
+            rotation: trees::rotation(rng),
+            translation: trees::vector(rng),
+        };
+        tree.mount(link, &placement)
+    });
+    let q = trees::values(rng, n, 1.5);
+    let mut data = Data::<Sp, f64>::new(tree);
+    tree.kinematics(&q, &mut data);
+    let mut dual = Data::<Sp, Second>::new(tree);
+    let moving = tree.joints_between(&mount, &other);
+    for k in 0..n {
+        let by_k = tree.relative_position_by(&mount, &other, &data, k);
+        let still = by_k.components().iter().all(|c| *c == 0.0);
+        assert!(still || moving.contains(&k), "joint {k}");
+        for l in 0..n {
+            let seeded: Vec<Second> = (0..n)
+                .map(|j| Second::seeded(q[j], (j == k).then_some(0), (j == l).then_some(0)))
+                .collect();
+            tree.kinematics(&seeded, &mut dual);
+            let expected = tree.relative_position(&mount, &other, &dual);
+            let by_both = tree.relative_position_by_both(&mount, &other, &data, k, l);
+            for (i, expected) in expected.components().iter().enumerate() {
+                for (found, expected) in [
+                    (by_k.components()[i], expected.rows[0]),
+                    (by_both.components()[i], expected.block[0][0]),
+                ] {
+                    assert_close("derivative", found, expected, 1.0, 1e-13);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn relative_positions_and_their_derivatives() {
+    let rng = &mut Rng::with_seed(31);
+    for model in robots() {
+        let n = model.joint_count();
+        let mut link = || rng.usize(0..=n).checked_sub(1);
+        let pairs: Vec<_> = (0..6).map(|_| [link(), link()]).collect();
+        for links in pairs {
+            if let Some(tree) = Tree::planar(&model) {
+                check_relative_position(&tree, links, rng);
+            }
+            check_relative_position(&Tree::spatial(&model), links, rng);
+        }
+    }
+}
+
+/// Distance of two points, across the plane included, in the plane and in space.
+#[test]
+fn heights_above_the_plane_are_kept() {
+    let rng = &mut Rng::with_seed(37);
+    let model = trees::planar(rng, Vector3::new(0.3, -0.5, 0.8));
+    let (flat, solid) = (Tree::planar(&model).unwrap(), Tree::spatial(&model));
+    let n = model.joint_count();
+    let q = trees::values(rng, n, 1.0);
+    let mut in_plane = Data::new(&flat);
+    flat.kinematics(&q, &mut in_plane);
+    let mut in_space = Data::new(&solid);
+    solid.kinematics(&q, &mut in_space);
+    for (a, b) in (0..n).flat_map(|a| (0..a).map(move |b| (Some(a), b.checked_sub(1)))) {
+        let mut at = || Placement {
+            rotation: trees::rotation(rng),
+            translation: trees::vector(rng),
+        };
+        let (first, second) = (at(), at());
+        let [p, o] = [(a, &first), (b, &second)].map(|(link, at)| flat.mount(link, at));
+        let height = flat.height_between(&p, &o);
+        let found = flat
+            .relative_position(&p, &o, &in_plane)
+            .norm()
+            .hypot(height);
+        let [p, o] = [(a, &first), (b, &second)].map(|(link, at)| solid.mount(link, at));
+        assert_eq!(solid.height_between(&p, &o), 0.0);
+        let expected = solid.relative_position(&p, &o, &in_space).norm();
+        assert_close("distance", found, expected, 1.0, 1e-12);
     }
 }

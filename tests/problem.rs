@@ -8,8 +8,7 @@ use ffsm_ipopt::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, Model, 
 use ffsm_ipopt::nalgebra::{Matrix3, Vector3};
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::problem::{
-    EndEffectorGoal, GoalFrame, KeepOut, Moment, Obstacle, Problem, ProblemBuilder, Sphere, Task,
-    WayPoint,
+    EndEffectorGoal, GoalFrame, KeepOut, Moment, Problem, ProblemBuilder, Solid, Task, WayPoint,
 };
 
 /// A change that makes a problem invalid, and the key that is to blame.
@@ -27,15 +26,10 @@ fn assert_refused(problem: &Problem, changes: &[Change]) {
 }
 
 fn pair(radius: f64, joint: Option<usize>) -> KeepOut {
-    let sphere = |joint| Sphere {
-        joint,
-        center: [0.0; 3],
-        radius,
-    };
     KeepOut {
         name: "apart".into(),
-        sphere: sphere(joint),
-        from: Obstacle::Sphere(sphere(None)),
+        first: Solid::sphere(joint, [0.0; 3], radius),
+        second: Solid::sphere(None, [0.0; 3], radius),
     }
 }
 
@@ -108,7 +102,7 @@ fn limits_that_cannot_be() {
             ("limits.final_base_attitude", |p| {
                 p.limits.final_base_attitude.clear()
             }),
-            ("limits.keep_out[0].from.radius", |p| {
+            ("limits.keep_out[0].sphere.radius", |p| {
                 p.limits.keep_out = vec![pair(-1.0, Some(0))]
             }),
             ("limits.keep_out[0].sphere.radius", |p| {

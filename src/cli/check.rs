@@ -9,7 +9,7 @@ use crate::dynamics::attitude::SpatialAttitude;
 use crate::ocp::Interval;
 use crate::problem::{
     ComponentKind, CostEntry, CostId, EndEffectorGoal, GoalFrame, KeepOut, LimitId, Moment,
-    Obstacle, Problem, Sphere, Unit, WayPoint,
+    Problem, Solid, Unit, WayPoint,
 };
 use crate::refine::Method;
 use crate::report::{Lines, rotation};
@@ -221,24 +221,15 @@ fn limits_on(lines: &mut Lines, problem: &Problem, kind: ComponentKind) {
 
 /// A pair kept apart in one line.
 fn keep_out(problem: &Problem, pair: &KeepOut) -> String {
-    let sphere = |sphere: &Sphere| {
-        let body = match sphere.joint {
+    let solid = |solid: &Solid| {
+        let body = match solid.joint {
             Some(joint) => &problem.robot.joints()[joint].body.name,
             None => &problem.robot.base().name,
         };
-        match sphere.radius {
-            0.0 => format!("a point of {body}"),
-            radius => format!("a sphere of {} on {body}", show(Unit::Metre, radius)),
-        }
+        format!("{} on {body}", solid.shape)
     };
-    let from = match &pair.from {
-        Obstacle::Sphere(other) => sphere(other),
-        Obstacle::Box { half, .. } => {
-            let edges = half.map(|h| rounded(200.0 * h)).join(" × ");
-            format!("a box of {edges} cm on {}", problem.robot.base().name)
-        }
-    };
-    format!("{}: {} from {from}", pair.name, sphere(&pair.sphere))
+    let (first, second) = (solid(&pair.first), solid(&pair.second));
+    format!("{}: {first} from {second}", pair.name)
 }
 
 /// Names of the components that limits and weights of that kind have.

@@ -2,9 +2,10 @@
 
 use super::ConfigError;
 use super::document::quoted;
-use super::item::{Item, hint};
+use super::item::{Item, Section, hint};
 use super::robot::Robot;
-use crate::problem::{KeepOut, Obstacle, Sphere};
+use crate::dynamics::Placement;
+use crate::problem::{KeepOut, Shape, Solid};
 use nalgebra::Vector3;
 
 /// The array of pairs.
@@ -19,52 +20,85 @@ pub(super) fn read(item: &Item<'_>, robot: &Robot) -> Result<Vec<KeepOut>, Confi
 fn one(item: &Item<'_>, robot: &Robot) -> Result<KeepOut, ConfigError> {
     let section = item.section(&["name", "sphere", "from"])?;
     let expected = "a table with body, center and radius";
-    let (sphere, carrier) = sphere(section.require("sphere", expected)?, robot)?;
-    let expected = "a table with body, center and radius, or with center and half for a box";
+    let (first, carrier) = sphere(section.require("sphere", expected)?, robot)?;
+    let expected = "a table with body, center and radius, or with body, center and half for a box";
     let from = section.require("from", expected)?;
-    let boxed = from
-        .as_entries()
-        .is_some_and(|entries| entries.iter().any(|entry| entry.name == "half"));
-    let from = if boxed {
-        let section = from.section(&["center", "half"])?;
-        let expected = "[x, y, z] in the base frame, m";
-        let center = section.require("center", expected)?.triple(expected)?;
-        let expected = "half of each edge along the base frame's axes, [x, y, z], m";
-        let half = section.require("half", expected)?.triple(expected)?;
-        Obstacle::Box { center, half }
+    let (second, _) = if has(from, "half") {
+        cuboid(from, robot)?
     } else {
-        Obstacle::Sphere(self::sphere(from, robot)?.0)
+        sphere(from, robot)?
     };
     let name = match section.get("name") {
         Some(item) => item.text("a string")?.into(),
         None => format!("clearance of {carrier}"),
     };
-    Ok(KeepOut { name, sphere, from })
+    Ok(KeepOut {
+        name,
+        first,
+        second,
+    })
 }
 
-/// A sphere, in the frame of the body that carries it, and the name it was given by: that of a
-/// body, or of one that has become part of another.
-fn sphere<'a>(item: &Item<'a>, robot: &Robot) -> Result<(Sphere, &'a str), ConfigError> {
+/// Whether it is a table with that key.
+fn has(item: &Item<'_>, key: &str) -> bool {
+    item.as_entries()
+        .is_some_and(|entries| entries.iter().any(|entry| entry.name == key))
+}
+
+/// A solid and the name of the body that it was given for: one of the robot's, or one that has
+/// become part of another.
+type Named<'a> = (Solid, &'a str);
+
+fn sphere<'a>(item: &Item<'a>, robot: &Robot) -> Result<Named<'a>, ConfigError> {
     let section = item.section(&["body", "center", "radius"])?;
-    let expected = "a body of the robot";
-    let body = section.require("body", expected)?;
-    let name = body.text(expected)?;
-    let Some((joint, placement)) = robot.body(name) else {
-        let names = robot.body_names();
-        return Err(body.error(quoted(name), format!("{expected}; {}", hint(name, &names))));
-    };
-    let expected = "[x, y, z] in the body's frame, m";
+    let body = section.require("body", BODY)?;
+    let (joint, placement) = find(body, robot)?;
     let center = match section.get("center") {
-        Some(item) => item.triple(expected)?,
+        Some(item) => item.triple(POINT)?,
         None => [0.0; 3],
     };
-    let expected = "a finite length, m, zero or above";
-    let radius = section.require("radius", expected)?.number(expected)?;
-    let center = placement.rotation * Vector3::from(center) + placement.translation;
-    let sphere = Sphere {
-        joint,
-        center: center.into(),
-        radius,
+    let radius = radius(&section)?;
+    let center = placed(&placement, center);
+    Ok((Solid::sphere(joint, center, radius), body.text(BODY)?))
+}
+
+fn cuboid<'a>(item: &Item<'a>, robot: &Robot) -> Result<Named<'a>, ConfigError> {
+    let section = item.section(&["body", "center", "half"])?;
+    let (joint, placement, name) = match section.get("body") {
+        Some(body) => {
+            let (joint, placement) = find(body, robot)?;
+            (joint, placement, body.text(BODY)?)
+        }
+        None => (None, Placement::identity(), "base"),
     };
-    Ok((sphere, name))
+    let center = section.require("center", POINT)?.triple(POINT)?;
+    let expected = "half of each edge along the axes of the body's frame, [x, y, z], m";
+    let half = section.require("half", expected)?.triple(expected)?;
+    let shape = Shape::Box {
+        center: placed(&placement, center),
+        rotation: placement.rotation,
+        half,
+    };
+    Ok((Solid { joint, shape }, name))
+}
+
+const BODY: &str = "a body of the robot";
+const POINT: &str = "[x, y, z] in the body's frame, m";
+
+fn radius(section: &Section<'_>) -> Result<f64, ConfigError> {
+    let expected = "a finite length, m, zero or above";
+    section.require("radius", expected)?.number(expected)
+}
+
+/// The joint whose body is or carries the one that `item` names, and the pose of its frame there.
+fn find(item: &Item<'_>, robot: &Robot) -> Result<(Option<usize>, Placement), ConfigError> {
+    let name = item.text(BODY)?;
+    robot.body(name).ok_or_else(|| {
+        let hint = hint(name, &robot.body_names());
+        item.error(quoted(name), format!("{BODY}; {hint}"))
+    })
+}
+
+fn placed(placement: &Placement, point: [f64; 3]) -> [f64; 3] {
+    (placement.rotation * Vector3::from(point) + placement.translation).into()
 }

@@ -112,6 +112,11 @@ pub trait Space: Screws<Moments = <Self as Space>::Inertia<f64>> {
         orientation: &Self::Orientation<S>,
         vector: &Self::Linear<f64>,
     ) -> Self::Linear<S>;
+    /// A vector in base axes by its components along the body's axes.
+    fn along_axes<S: Scalar>(
+        orientation: &Self::Orientation<S>,
+        vector: &Self::Linear<S>,
+    ) -> Self::Linear<S>;
     /// A revolute joint's axis in base axes, in the sense `sign`.
     fn axis<S: Scalar>(orientation: &Self::Orientation<S>, sign: f64) -> Self::Angular<S>;
     /// A body's constant inertia in base axes.
@@ -197,6 +202,10 @@ impl Space for Planar {
     #[inline]
     fn rotated<S: Scalar>(o: &Vector2<S>, v: &Vector2<f64>) -> Vector2<S> {
         Vector2::new(o.x * v.x - o.y * v.y, o.y * v.x + o.x * v.y)
+    }
+    #[inline]
+    fn along_axes<S: Scalar>(o: &Vector2<S>, v: &Vector2<S>) -> Vector2<S> {
+        Vector2::new(o.x * v.x + o.y * v.y, o.x * v.y - o.y * v.x)
     }
     #[inline]
     fn axis<S: Scalar>(_orientation: &Vector2<S>, sign: f64) -> Vector1<S> {
@@ -317,6 +326,14 @@ impl Space for Spatial {
     #[inline]
     fn rotated<S: Scalar>(o: &[Vector3<S>; 3], v: &Vector3<f64>) -> Vector3<S> {
         o[0].times(v.x) + o[1].times(v.y) + o[2].times(v.z)
+    }
+    #[inline]
+    fn along_axes<S: Scalar>(o: &[Vector3<S>; 3], v: &Vector3<S>) -> Vector3<S> {
+        Vector3::new(
+            Vector::dot(&o[0], v),
+            Vector::dot(&o[1], v),
+            Vector::dot(&o[2], v),
+        )
     }
     #[inline]
     fn axis<S: Scalar>(o: &[Vector3<S>; 3], sign: f64) -> Vector3<S> {

@@ -39,6 +39,8 @@ pub struct Tree<Sp: Space> {
     /// Rotation from each body's frame, and from the base's, to the one it is compiled in.
     pub(super) frames: Vec<Matrix3<f64>>,
     pub(super) base_frame: Matrix3<f64>,
+    /// Of each joint's origin above the base's along the plane's normal, m; zero in space.
+    pub(super) heights: Vec<f64>,
     pub(super) end_effector: Option<Mount<Sp>>,
 }
 
@@ -89,12 +91,24 @@ impl<Sp: Space> Tree<Sp> {
             total_mass,
             frames,
             base_frame,
+            heights: heights::<Sp>(model),
             end_effector: None,
         };
         tree.end_effector = model
             .end_effector()
             .map(|(link, placement)| tree.mount(*link, placement));
         tree
+    }
+}
+
+/// Heights of the joints' origins in the plane; they do not change.
+fn heights<Sp: Space>(model: &Model) -> Vec<f64> {
+    match model.plane().filter(|_| Sp::LENGTHS == Planar::LENGTHS) {
+        Some(plane) => zero_poses(model.joints())
+            .iter()
+            .map(|(_, origin)| plane.basis.column(2).dot(origin))
+            .collect(),
+        None => vec![0.0; model.joint_count()],
     }
 }
 

@@ -9,6 +9,8 @@ pub struct Quantity {
     pub name: String,
     /// Bounds along the whole path (states, controls, path rows) or at the ends (boundary rows).
     pub bounds: Interval,
+    /// What counts as one in it, in its unit; `None` for the size of its bounds.
+    pub size: Option<f64>,
 }
 
 impl Quantity {
@@ -17,6 +19,15 @@ impl Quantity {
         Self {
             name: name.into(),
             bounds,
+            size: None,
+        }
+    }
+
+    /// The same with a size of its own.
+    pub fn sized(self, size: f64) -> Self {
+        Self {
+            size: Some(size),
+            ..self
         }
     }
 }

@@ -45,7 +45,7 @@ fn shown(finding: &LimitFinding, bound: &Interval) -> String {
     if finding.component == Component::RotationAngle {
         format!("{}{unit}", number(bound.upper))
     } else if finding.limit == LimitId::KeepOut {
-        format!("at least {}{unit}", number(bound.lower))
+        format!("a clearance of {:.4}{unit}", bound.lower * factor)
     } else if bound.lower == -bound.upper {
         format!("±{}{unit}", number(bound.upper))
     } else {

@@ -20,7 +20,7 @@ pub use components::ComponentKind;
 pub use cost::{Cost, CostEntry, CostId};
 pub use error::ProblemError;
 pub use goal::{EndEffectorGoal, GoalFrame};
-pub use keep_out::{KeepOut, Obstacle, Sphere};
+pub use keep_out::{KeepOut, Shape, Solid};
 pub use limit_id::LimitId;
 pub use limits::{LimitEntry, Limits};
 pub use momentum::Momentum;

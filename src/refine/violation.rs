@@ -1,6 +1,6 @@
 //! How far a trajectory leaves its bounds between the nodes, where nothing holds it.
 
-use crate::ocp::{Interval, Ocp, Point};
+use crate::ocp::{Interval, Ocp, Point, Quantity};
 use crate::transcription::Discretization;
 
 /// What is bounded.
@@ -28,7 +28,8 @@ pub struct Violation {
     pub value: f64,
     /// How far it is outside; infinite where the value is NaN.
     pub excess: f64,
-    /// The same as a part of the bound's size; of one where the bounds are zero.
+    /// The same as a part of the quantity's size, which is that of its bounds unless it has one
+    /// of its own; of one where the bounds are zero.
     pub relative: f64,
 }
 
@@ -45,19 +46,19 @@ pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Viola
     let (n, m) = formulation.widths();
     let limited = |bounds: &Interval| !bounds.is_free();
     let path_rows = formulation.path.iter().any(|row| limited(&row.bounds));
-    let quantities: Vec<(Bounded, Interval)> = formulation
+    let quantities: Vec<(Bounded, &Quantity)> = formulation
         .states
         .iter()
         .enumerate()
-        .map(|(i, state)| (Bounded::State(i), state.bounds))
+        .map(|(i, state)| (Bounded::State(i), state))
         .chain(
             formulation
                 .path
                 .iter()
                 .enumerate()
-                .map(|(p, row)| (Bounded::Path(p), row.bounds)),
+                .map(|(p, row)| (Bounded::Path(p), row)),
         )
-        .filter(|(_, bounds)| limited(bounds))
+        .filter(|(_, quantity)| limited(&quantity.bounds))
         .collect();
     let mesh = &trajectory.mesh;
     if quantities.is_empty() {
@@ -77,12 +78,12 @@ pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Viola
                     let point = Point { x: &x, u: &u, t };
                     ocp.continuous(point, &mut scratch, &mut rates, &mut path);
                 }
-                for (worst, &(what, bounds)) in worst.iter_mut().zip(&quantities) {
+                for (worst, &(what, quantity)) in worst.iter_mut().zip(&quantities) {
                     let value = match what {
                         Bounded::State(i) => x[i],
                         Bounded::Path(p) => path[p],
                     };
-                    let excess = bounds.violation(value);
+                    let excess = quantity.bounds.violation(value);
                     if excess > worst.map_or(0.0, |w| w.excess) {
                         *worst = Some(Violation {
                             what,
@@ -91,7 +92,7 @@ pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Viola
                             t,
                             value,
                             excess,
-                            relative: excess / size(&bounds),
+                            relative: excess / size(quantity),
                         });
                     }
                 }
@@ -126,9 +127,12 @@ fn places(nodes: &[f64], last: bool) -> Vec<f64> {
     places
 }
 
-/// The larger of the finite bounds' magnitudes.
-fn size(bounds: &Interval) -> f64 {
-    let finite = [bounds.lower, bounds.upper]
+/// Its own size, or the larger of the finite bounds' magnitudes.
+fn size(quantity: &Quantity) -> f64 {
+    if let Some(size) = quantity.size {
+        return size;
+    }
+    let finite = [quantity.bounds.lower, quantity.bounds.upper]
         .into_iter()
         .filter(|b| b.is_finite());
     match finite.fold(0.0, |size: f64, bound| size.max(bound.abs())) {

@@ -6,7 +6,7 @@ use crate::problems;
 use crate::trees;
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::ocp::{Elastic, Interval};
-use ffsm_ipopt::problem::{GoalFrame, KeepOut, Moment, Obstacle, Sphere, WayPoint};
+use ffsm_ipopt::problem::{GoalFrame, KeepOut, Moment, Solid, WayPoint};
 use ffsm_ipopt::system::FreeFloating;
 
 /// `problem` with a pose for the end effector, fixed in the last body.
@@ -47,35 +47,40 @@ fn way_points_in_joint_and_task_space() {
 
 #[test]
 fn pairs_kept_apart() {
-    let sphere = |joint, radius| Sphere {
-        joint,
-        center: [0.3, 0.1, -0.2],
-        radius,
-    };
     for robot in [problems::two_link(), trees::chain(3, 8)] {
         let problem = loaded(robot);
         let last = problem.robot.joint_count() - 1;
-        let pair = |name: &str, from| KeepOut {
+        let at = [0.3, 0.1, -0.2];
+        let pair = |name: &str, second| KeepOut {
             name: name.into(),
-            sphere: sphere(Some(last), 0.1),
-            from,
+            first: Solid::sphere(Some(last), at, 0.1),
+            second,
         };
         let (center, half) = ([0.1, -0.2, 0.3], [0.6, 0.5, 0.4]);
         let problem = problem
             .edited(|problem| {
                 problem.limits.keep_out = vec![
-                    pair("off the base", Obstacle::Sphere(sphere(None, 0.5))),
-                    pair("along the arm", Obstacle::Sphere(sphere(Some(0), 0.2))),
-                    pair("off the box", Obstacle::Box { center, half }),
+                    pair("off the base", Solid::sphere(None, at, 0.5)),
+                    pair("along the arm", Solid::sphere(Some(0), at, 0.2)),
+                    pair("off the box", Solid::cuboid(None, center, half)),
+                    pair("along the arm, a box", Solid::cuboid(Some(0), center, half)),
+                    KeepOut {
+                        name: "a box in front".into(),
+                        first: Solid::cuboid(Some(last), center, [0.1, 0.2, 0.3]),
+                        second: Solid::sphere(None, at, 0.0),
+                    },
                 ];
                 problem.limits.torque = vec![Interval::symmetric(3.0); last + 1];
             })
             .unwrap();
-        // The first joint moves both bodies of this pair alike: in base axes its part cancels.
+        // The first joint moves both bodies of these pairs alike: in base axes its part cancels.
         let both_carried = |row: &str, column: &str| {
             row.starts_with("along the arm") && column.starts_with("joint 1 position")
         };
-        check_problem_with(&problem, Mesh::uniform(1, 2).unwrap(), both_carried);
+        // In front of a face the distance hangs on one component alone.
+        let faced = |row: &str| row.contains("box");
+        let cancels = |row: &str, column: &str| both_carried(row, column) || faced(row);
+        check_problem_with(&problem, Mesh::uniform(1, 2).unwrap(), cancels);
     }
 }
 

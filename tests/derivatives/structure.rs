@@ -10,7 +10,7 @@ use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::nalgebra::Vector3;
 use ffsm_ipopt::nlp::Nlp;
 use ffsm_ipopt::ocp::{Elastic, Ends, Formulation, InteriorPoint, Interval, Ocp, Point};
-use ffsm_ipopt::problem::{KeepOut, Obstacle, Problem, Sphere};
+use ffsm_ipopt::problem::{KeepOut, Problem, Solid};
 use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Patterns, Transcription};
 
@@ -124,16 +124,16 @@ fn structure_and_sweeps_agree() {
         };
         let row = |i: usize| (0..rates).map(|j| element(i, j)).collect();
         problem.cost.rate_matrix = Some((0..rates).map(row).collect());
-        let sphere = |joint| Sphere {
-            joint,
-            center: [0.3, 0.1, -0.2],
-            radius: 0.1,
-        };
-        problem.limits.keep_out = vec![KeepOut {
+        let center = [0.3, 0.1, -0.2];
+        let apart = |second| KeepOut {
             name: "apart".into(),
-            sphere: sphere(Some(n - 1)),
-            from: Obstacle::Sphere(sphere(None)),
-        }];
+            first: Solid::sphere(Some(n - 1), center, 0.1),
+            second,
+        };
+        problem.limits.keep_out = vec![
+            apart(Solid::sphere(None, center, 0.1)),
+            apart(Solid::cuboid(Some(0), [0.1, -0.2, 0.3], [0.3, 0.2, 0.4])),
+        ];
         let mesh = || Mesh::uniform(1, 2).unwrap();
         for tumbling in [0.0, 0.3] {
             problem.task.initial_momentum.angular = vec![tumbling; angles];

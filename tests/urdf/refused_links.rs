@@ -3,6 +3,7 @@
 use crate::program::edited;
 use crate::robots::*;
 use ffsm_ipopt::nalgebra::Vector3;
+use ffsm_ipopt::problem::Shape;
 
 #[test]
 fn masses_and_inertias() {
@@ -87,11 +88,14 @@ fn pairs_on_links_that_have_become_part_of_others() {
          from = { body = \"hull\", center = [0, 0, -1], radius = 0.2 }\n";
     let folder = folder(ARM, robot, 1, pairs);
     let file = load(&folder);
-    let sphere = &file.problem.limits.keep_out[0].sphere;
+    let sphere = &file.problem.limits.keep_out[0].first;
     assert_eq!(sphere.joint, Some(0));
+    let Shape::Sphere { center, .. } = sphere.shape else {
+        panic!("{sphere:?}");
+    };
     // The tool's z axis is the arm's x axis.
     let expected = [0.5 + 0.3 + 0.4 + 0.1 + 0.2, 0.0, 0.0];
-    assert_near(&Vector3::from(sphere.center), expected);
+    assert_near(&Vector3::from(center), expected);
     let check = folder.run(&["check", "case.toml"]).stdout;
     assert!(check.contains("  end effector        tool0\n"), "{check}");
     let line =

@@ -1,73 +1,79 @@
-//! Pairs kept apart.
+//! Pairs kept apart: bodies that are there and differ, finite numbers, sizes above zero, no two
+//! points and no two boxes.
 
-use super::checks::{Checked, error, length};
+use super::checks::{Checked, error};
 use crate::problem::builder::ProblemBuilder;
-use crate::problem::keep_out::{KeepOut, Obstacle};
+use crate::problem::keep_out::{KeepOut, Shape, Solid};
 use crate::problem::limit_id::LimitId;
+use nalgebra::Matrix3;
 
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
-    for (i, pair) in problem.limits.keep_out.iter().enumerate() {
+    for (i, one) in problem.limits.keep_out.iter().enumerate() {
         let key = format!("{}[{i}]", LimitId::KeepOut);
-        sizes(&key, pair)?;
-        centers(&key, pair)?;
-        not_two_points(&key, pair)?;
-        bodies(&key, pair, problem.robot.joint_count())?;
+        pair(&key, one, problem.robot.joint_count())?;
     }
     Ok(())
 }
 
-fn sizes(key: &str, pair: &KeepOut) -> Checked {
-    match &pair.from {
-        Obstacle::Sphere(other) => length(format!("{key}.from.radius"), other.radius)?,
-        Obstacle::Box { half, .. } => {
-            if let Some(h) = half.iter().find(|h| !(h.is_finite() && **h > 0.0)) {
-                let expected = "finite lengths above zero, m";
-                return Err(error(format!("{key}.from.half"), h, expected));
-            }
-        }
-    }
-    length(format!("{key}.sphere.radius"), pair.sphere.radius)
-}
-
-fn centers(key: &str, pair: &KeepOut) -> Checked {
-    let other = match &pair.from {
-        Obstacle::Sphere(other) => &other.center,
-        Obstacle::Box { center, .. } => center,
+fn pair(key: &str, pair: &KeepOut, joints: usize) -> Checked {
+    let of_first = match pair.first.shape {
+        Shape::Sphere { .. } => "sphere",
+        Shape::Box { .. } => "first",
     };
-    let mut numbers = pair.sphere.center.iter().chain(other);
-    match numbers.find(|c| !c.is_finite()) {
-        Some(c) => Err(error(format!("{key}.sphere.center"), c, "finite numbers")),
-        None => Ok(()),
+    let (first, second) = (&pair.first, &pair.second);
+    solid(first, joints, |rest| format!("{key}.{of_first}.{rest}"))?;
+    solid(second, joints, |rest| format!("{key}.from.{rest}"))?;
+    if first.is_point() && second.is_point() {
+        let expected = "a radius above zero on one side";
+        let key = format!("{key}.{of_first}.radius");
+        return Err(error(key, "two points", expected));
     }
-}
-
-fn not_two_points(key: &str, pair: &KeepOut) -> Checked {
-    match &pair.from {
-        Obstacle::Sphere(other) if pair.sphere.radius + other.radius == 0.0 => Err(error(
-            format!("{key}.sphere.radius"),
-            "two points",
-            "a radius above zero on one side",
-        )),
-        _ => Ok(()),
-    }
-}
-
-fn bodies(key: &str, pair: &KeepOut, joints: usize) -> Checked {
-    let other = match &pair.from {
-        Obstacle::Sphere(other) => other.joint,
-        Obstacle::Box { .. } => None,
-    };
-    let carriers = [pair.sphere.joint, other];
-    if carriers.iter().flatten().any(|&joint| joint >= joints) {
+    if first.is_box() && second.is_box() {
+        let expected = "one of both as spheres";
         return Err(error(
-            format!("{key}.sphere.body"),
-            "no such body",
-            "a body of the robot",
+            format!("{key}.from"),
+            "a box against a box",
+            expected,
         ));
     }
-    if carriers[0] == carriers[1] {
+    if first.joint == second.joint {
         let expected = "two different bodies";
         return Err(error(format!("{key}.from.body"), "the same body", expected));
+    }
+    Ok(())
+}
+
+fn solid(solid: &Solid, joints: usize, key: impl Fn(&str) -> String) -> Checked {
+    let finite = |name: &str, numbers: &[f64]| match numbers.iter().find(|n| !n.is_finite()) {
+        Some(number) => Err(error(key(name), number, "finite numbers")),
+        None => Ok(()),
+    };
+    if solid.joint.is_some_and(|joint| joint >= joints) {
+        return Err(error(key("body"), "no such body", "a body of the robot"));
+    }
+    match &solid.shape {
+        Shape::Sphere { center, radius } => {
+            finite("center", center)?;
+            if !(radius.is_finite() && *radius >= 0.0) {
+                let expected = "a finite length, m, zero or above";
+                return Err(error(key("radius"), radius, expected));
+            }
+        }
+        Shape::Box {
+            center,
+            rotation,
+            half,
+        } => {
+            finite("center", center)?;
+            let off = (rotation.transpose() * rotation - Matrix3::identity()).amax();
+            if off.is_nan() || off > 1e-6 {
+                let expected = "a rotation matrix";
+                return Err(error(key("rotation"), rotation, expected));
+            }
+            if let Some(h) = half.iter().find(|h| !(h.is_finite() && **h > 0.0)) {
+                return Err(error(key("half"), h, "finite lengths above zero, m"));
+            }
+        }
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::dynamics::{Body, Model};
-use crate::problem::{KeepOut, Obstacle, Problem, Sphere};
+use crate::problem::{KeepOut, Problem, Shape, Solid};
 use crate::system::Trajectory;
 use crate::verify::bodies::{BaseMotion, Bodies, orientation};
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
@@ -28,7 +28,7 @@ pub(super) struct Scene {
     tips: Vec<usize>,
     /// Points of a frame at the centres of spheres that are kept apart, with their radii, m.
     balls: Vec<(usize, f64)>,
-    /// Edges of boxes that are kept clear.
+    /// Edges of boxes that are kept apart.
     boxes: Vec<[usize; 2]>,
     motions: Vec<Motion>,
 }
@@ -94,7 +94,7 @@ impl Scene {
 
     /// Whether anything is kept apart.
     pub fn keeps_apart(&self) -> bool {
-        !self.balls.is_empty()
+        !(self.balls.is_empty() && self.boxes.is_empty())
     }
 
     /// As JSON that may stand in a script element.
@@ -153,11 +153,8 @@ impl<'a> Skeleton<'a> {
             found.tips.push(tip);
         }
         for pair in apart {
-            found.ball(&pair.sphere);
-            match &pair.from {
-                Obstacle::Sphere(sphere) => found.ball(sphere),
-                Obstacle::Box { center, half } => found.clear(*center, *half),
-            }
+            found.solid(&pair.first);
+            found.solid(&pair.second);
         }
         found
     }
@@ -168,20 +165,30 @@ impl<'a> Skeleton<'a> {
         self.corners.len() + self.robot.joint_count() + self.attached.len()
     }
 
-    fn ball(&mut self, sphere: &Sphere) {
-        let centre = self.attach((sphere.joint, Vector3::from(sphere.center)));
-        self.balls.push((centre, sphere.radius));
+    fn solid(&mut self, solid: &Solid) {
+        match &solid.shape {
+            Shape::Sphere { center, radius } => self.ball(solid.joint, *center, *radius),
+            Shape::Box {
+                center,
+                rotation,
+                half,
+            } => self.cuboid(solid.joint, cuboid((*center).into(), rotation, *half)),
+        }
     }
 
-    /// A box on the base.
-    fn clear(&mut self, center: [f64; 3], half: [f64; 3]) {
-        let mut corners = cuboid(Vector3::from(center), &Matrix3::identity(), half);
+    fn ball(&mut self, joint: Option<usize>, center: [f64; 3], radius: f64) {
+        let centre = self.attach((joint, center.into()));
+        self.balls.push((centre, radius));
+    }
+
+    /// The edges between the eight corners, or the outline in the plane of motion.
+    fn cuboid(&mut self, joint: Option<usize>, mut corners: Vec<Vector3<f64>>) {
         if self.robot.plane().is_some() {
-            corners = outline(&corners, &self.to_picture);
+            corners = outline(&corners, &(self.to_picture * at_zero(self.robot, joint)));
         }
         let first = corners
             .iter()
-            .map(|corner| self.attach((None, *corner)))
+            .map(|corner| self.attach((joint, *corner)))
             .min();
         let first = first.unwrap_or(0);
         let edges = edges(corners.len()).into_iter();
@@ -291,6 +298,16 @@ fn edges(corners: usize) -> Vec<[usize; 2]> {
     } else {
         (0..corners).map(|k| [k, (k + 1) % corners]).collect()
     }
+}
+
+/// Rotation from the frame of a joint's body (`None`: the base) to base axes, all joints at zero.
+fn at_zero(robot: &Model, mut joint: Option<usize>) -> Matrix3<f64> {
+    let mut rotation = Matrix3::identity();
+    while let Some(joint_at) = joint.map(|j| &robot.joints()[j]) {
+        rotation = joint_at.placement.rotation * rotation;
+        joint = joint_at.parent;
+    }
+    rotation
 }
 
 /// The four of the corners of a block that are its outline in the plane of motion, in order.

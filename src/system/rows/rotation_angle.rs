@@ -51,8 +51,7 @@ impl RotationAngleRow {
         let row = Row {
             measure: Measure::SquaredRatio { bound },
             // Of the squares: twice the relative excess of the angle, to first order.
-            size: 2.0,
-            ..Row::new(id, Unit::Radian, NAME, bounds)
+            ..Row::new(id, Unit::Radian, NAME, bounds).sized(2.0)
         };
         (bound > 0.0 && bound < PI).then(|| Self {
             row,

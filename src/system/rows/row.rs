@@ -99,6 +99,7 @@ impl Row {
     /// The same with another size.
     pub fn sized(mut self, size: f64) -> Self {
         self.size = size;
+        self.quantity.size = Some(size);
         self
     }
 
