@@ -455,7 +455,7 @@ fn the_rotation_angle_and_the_change_of_description() {
         let eta = trees::attitude(rng, from);
         let turned = orientation(robot, from, &eta);
         let shortest = turned.angle().min(2.0 * PI - turned.angle());
-        let found = from.squared_turn::<f64>(&eta).sqrt();
+        let found = from.squared_rotation_angle::<f64>(&eta).sqrt();
         assert!(
             (found - shortest).abs() < 1e-14,
             "{found} instead of {shortest}"

@@ -1,6 +1,6 @@
 //! First-order dual numbers with several directions at a time.
 
-use super::{Over, Scalar};
+use super::{Scalar, Times};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -20,33 +20,33 @@ pub struct Dual<const N: usize, const FUSED: bool = false> {
 }
 
 impl<const N: usize, const FUSED: bool> Dual<N, FUSED> {
-    /// One in each lane, zero in the others.
+    /// One in each direction, zero in the others.
     const UNITS: [[f64; N]; N] = {
         let mut units = [[0.0; N]; N];
-        let mut lane = 0;
-        while lane < N {
-            units[lane][lane] = 1.0;
-            lane += 1;
+        let mut direction = 0;
+        while direction < N {
+            units[direction][direction] = 1.0;
+            direction += 1;
         }
         units
     };
 
-    /// Adds `by` to the derivative in direction `lane`.
+    /// Adds `by` to the derivative in `direction`.
     ///
     /// By a whole vector: to write one number where vectors are read next stalls the processor.
     #[inline(always)]
-    pub fn nudge(&mut self, lane: usize, by: f64) {
-        let unit = &Self::UNITS[lane];
+    pub fn add_derivative(&mut self, direction: usize, by: f64) {
+        let unit = &Self::UNITS[direction];
         for (derivative, &one) in self.gradient.iter_mut().zip(unit) {
             *derivative = plus_product::<FUSED>(*derivative, by, one);
         }
     }
 
-    /// A variable whose derivative is one in direction `lane` and zero in the others.
+    /// A variable whose derivative is one in `direction` and zero in the others.
     #[inline(always)]
-    pub fn seeded(value: f64, lane: usize) -> Self {
+    pub fn seeded(value: f64, direction: usize) -> Self {
         let mut gradient = [0.0; N];
-        gradient[lane] = 1.0;
+        gradient[direction] = 1.0;
         Self { value, gradient }
     }
 
@@ -96,40 +96,50 @@ impl<const N: usize, const FUSED: bool> Scalar for Dual<N, FUSED> {
     fn chain(self, value: f64, first: f64, _second: f64) -> Self {
         self.scaled(value, first)
     }
+}
 
+impl<const N: usize, const FUSED: bool> Times<f64> for Dual<N, FUSED> {
     #[inline(always)]
-    fn plus_product(mut self, a: Self, b: Self) -> Self {
-        self.value = plus_product::<FUSED>(self.value, a.value, b.value);
-        for i in 0..N {
-            let half = plus_product::<FUSED>(self.gradient[i], a.value, b.gradient[i]);
-            self.gradient[i] = plus_product::<FUSED>(half, b.value, a.gradient[i]);
-        }
-        self
+    fn times(self, factor: f64) -> Self {
+        self * factor
     }
 
     #[inline(always)]
-    fn plus_multiple(mut self, a: Self, factor: f64) -> Self {
+    fn plus_times(mut self, a: Self, factor: f64) -> Self {
         self.value = plus_product::<FUSED>(self.value, factor, a.value);
         for i in 0..N {
             self.gradient[i] = plus_product::<FUSED>(self.gradient[i], factor, a.gradient[i]);
         }
         self
     }
+
+    #[inline(always)]
+    fn minus_times(self, a: Self, factor: f64) -> Self {
+        self.plus_times(a, -factor)
+    }
 }
 
-impl<const N: usize, const FUSED: bool> Over<Self> for Dual<N, FUSED> {
+impl<const N: usize, const FUSED: bool> Times<Self> for Dual<N, FUSED> {
     #[inline(always)]
-    fn over(self, factor: Self) -> Self {
+    fn times(self, factor: Self) -> Self {
         self * factor
     }
 
     #[inline(always)]
-    fn plus(self, a: Self, factor: Self) -> Self {
-        self.plus_product(a, factor)
+    fn plus_times(mut self, a: Self, factor: Self) -> Self {
+        self.value = plus_product::<FUSED>(self.value, a.value, factor.value);
+        for i in 0..N {
+            let half = plus_product::<FUSED>(self.gradient[i], a.value, factor.gradient[i]);
+            self.gradient[i] = plus_product::<FUSED>(half, factor.value, a.gradient[i]);
+        }
+        self
     }
 
     #[inline(always)]
-    fn minus(mut self, a: Self, factor: Self) -> Self {
+    fn minus_times(mut self, a: Self, factor: Self) -> Self {
+        if !FUSED {
+            return self - a * factor;
+        }
         let (by_a, by_factor) = (-a.value, -factor.value);
         self.value = plus_product::<FUSED>(self.value, by_a, factor.value);
         for i in 0..N {

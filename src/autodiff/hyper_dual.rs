@@ -3,7 +3,7 @@
 // The product and quotient rules are sums and products.
 #![allow(clippy::suspicious_arithmetic_impl)]
 
-use super::Scalar;
+use super::{Scalar, Times};
 use num_traits::{One, Zero};
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -90,6 +90,20 @@ impl<const R: usize, const C: usize> Scalar for HyperDual<R, C> {
                 from_fn(|j| first * self.block[i][j] + curved * self.columns[j])
             }),
         }
+    }
+}
+
+impl<const R: usize, const C: usize> Times<f64> for HyperDual<R, C> {
+    #[inline]
+    fn times(self, factor: f64) -> Self {
+        self * factor
+    }
+}
+
+impl<const R: usize, const C: usize> Times<Self> for HyperDual<R, C> {
+    #[inline]
+    fn times(self, factor: Self) -> Self {
+        factor * self
     }
 }
 

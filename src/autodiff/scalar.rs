@@ -1,5 +1,6 @@
 //! The number type that model code is generic over.
 
+use super::Times;
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -24,6 +25,8 @@ pub trait Scalar:
     + Add<f64, Output = Self>
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
+    + Times<Self>
+    + Times<f64>
 {
     /// A constant: all derivatives are zero.
     fn constant(value: f64) -> Self;
@@ -34,18 +37,6 @@ pub trait Scalar:
     /// φ(self) for a nonlinear univariate φ with the given value, first and second derivative at
     /// `self.value()`.
     fn chain(self, value: f64, first: f64, second: f64) -> Self;
-
-    /// self + a·b.
-    #[inline]
-    fn plus_product(self, a: Self, b: Self) -> Self {
-        self + a * b
-    }
-
-    /// self + factor·a.
-    #[inline]
-    fn plus_multiple(self, a: Self, factor: f64) -> Self {
-        self + a * factor
-    }
 
     /// Sine and cosine of an angle, rad.
     #[inline]

@@ -3,11 +3,11 @@
 use super::{Dual, Function, HyperDual, Scalar, Sparsity};
 
 /// Directions of one first-order sweep.
-const LANES: usize = 8;
+const WIDTH: usize = 8;
 /// Rows and columns of one second-order sweep.
 const TILE: usize = 4;
 
-type First = Dual<LANES>;
+type First = Dual<WIDTH>;
 type Second = HyperDual<TILE, TILE>;
 
 /// A nonzero that a sweep delivers: where it stands in the sweep and in the list of nonzeros.
@@ -16,8 +16,8 @@ struct Delivery {
     slot: usize,
     /// Output (first order) or row of the tile (second order).
     row: usize,
-    /// Direction (first order) or column of the tile (second order).
-    lane: usize,
+    /// Direction in the sweep: the column of the tile at second order.
+    direction: usize,
 }
 
 #[derive(Debug)]
@@ -92,16 +92,16 @@ impl<F: Function> SparseDerivatives<F> {
             .collect();
         let sweeps = sparsity
             .columns()
-            .chunks(LANES)
+            .chunks(WIDTH)
             .map(|seeds| {
                 let mut deliveries = Vec::new();
                 for (row, columns) in sparsity.jacobian.iter().enumerate() {
                     for (k, column) in columns.iter().enumerate() {
-                        if let Some(lane) = seeds.iter().position(|seed| seed == column) {
+                        if let Some(direction) = seeds.iter().position(|seed| seed == column) {
                             deliveries.push(Delivery {
                                 slot: starts[row] + k,
                                 row,
-                                lane,
+                                direction,
                             });
                         }
                     }
@@ -142,12 +142,12 @@ impl<F: Function> SparseDerivatives<F> {
     pub fn jacobian(&mut self, f: &F, point: &[f64], jacobian: &mut [f64]) {
         for sweep in &self.sweeps {
             self.first.load(point);
-            for (lane, &seed) in sweep.seeds.iter().enumerate() {
-                self.first.inputs[seed] = First::seeded(point[seed], lane);
+            for (direction, &seed) in sweep.seeds.iter().enumerate() {
+                self.first.inputs[seed] = First::seeded(point[seed], direction);
             }
             self.first.run(f);
             for d in &sweep.deliveries {
-                jacobian[d.slot] = self.first.outputs[d.row].gradient[d.lane];
+                jacobian[d.slot] = self.first.outputs[d.row].gradient[d.direction];
             }
         }
     }
@@ -173,7 +173,7 @@ impl<F: Function> SparseDerivatives<F> {
                 }
             }
             for d in &tile.deliveries {
-                hessian[d.slot] = sum[d.row][d.lane];
+                hessian[d.slot] = sum[d.row][d.direction];
             }
         }
     }
@@ -194,8 +194,12 @@ fn tiles(sparsity: &Sparsity) -> Vec<Tile> {
                 .enumerate()
                 .filter_map(|(slot, (i, j))| {
                     let row = rows.iter().position(|r| r == i)?;
-                    let lane = columns.iter().position(|c| c == j)?;
-                    Some(Delivery { slot, row, lane })
+                    let direction = columns.iter().position(|c| c == j)?;
+                    Some(Delivery {
+                        slot,
+                        row,
+                        direction,
+                    })
                 })
                 .collect();
             if !deliveries.is_empty() {

@@ -1,7 +1,7 @@
 //! A number that records how it was computed, for the structure of derivatives.
 
-use super::Scalar;
 use super::tape::{Node, Operation, append, source};
+use super::{Scalar, Times};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -85,6 +85,18 @@ impl Scalar for Trace {
 
     fn abs(self) -> Self {
         self.straight(self.value.abs())
+    }
+}
+
+impl Times<f64> for Trace {
+    fn times(self, factor: f64) -> Self {
+        self * factor
+    }
+}
+
+impl Times<Self> for Trace {
+    fn times(self, factor: Self) -> Self {
+        self * factor
     }
 }
 

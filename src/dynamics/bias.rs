@@ -1,10 +1,10 @@
 //! The reduced Coriolis force Cθ̇ of eq. (6) by one recursive Newton-Euler pass.
 
-use super::space::{Space, Vector};
+use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};
 use crate::autodiff::Scalar;
 
-impl<Sp: Space> Tree<Sp> {
+impl<Sp: Algebra> Tree<Sp> {
     /// Cθ̇ for the joint rates `dq` (length n). Needs [`Tree::base_rate`] at the same rates.
     ///
     /// Joint and base accelerations are held at zero; the net force and moment this would take
@@ -50,12 +50,12 @@ impl<Sp: Space> Tree<Sp> {
                 JointKind::Revolute => {
                     let spin = data.axis[j].scaled(dq[j]);
                     if Sp::ANGLES > 1 {
-                        alpha += Sp::gyroscopic(&omega, &spin);
+                        alpha += Sp::cross_angular(&omega, &spin);
                     }
                     omega += spin;
                 }
                 JointKind::Prismatic => {
-                    at_joint += Sp::swept(&omega, &data.slide[j].scaled(dq[j])).times(2.0);
+                    at_joint += Sp::cross(&omega, &data.slide[j].scaled(dq[j])).times(2.0);
                 }
             }
             let center = data.center[j];
@@ -65,7 +65,7 @@ impl<Sp: Space> Tree<Sp> {
             if Sp::ANGLES > 1 {
                 let inertia = &data.inertia[j];
                 torque += Sp::apply(inertia, &alpha)
-                    + Sp::gyroscopic(&omega, &Sp::apply(inertia, &omega));
+                    + Sp::cross_angular(&omega, &Sp::apply(inertia, &omega));
             }
             data.omega[j] = omega;
             data.alpha[j] = alpha;
@@ -84,7 +84,7 @@ impl<Sp: Space> Tree<Sp> {
         let mut torque = Sp::moment(&center, &force);
         if Sp::ANGLES > 1 {
             let own = Sp::inertia(&Sp::aligned(), &self.base_inertia);
-            torque += Sp::gyroscopic(&omega, &Sp::apply(&own, &omega));
+            torque += Sp::cross_angular(&omega, &Sp::apply(&own, &omega));
         }
         for (j, link) in self.links.iter().enumerate().rev() {
             let (f, t) = (data.force[j], data.torque[j]);
@@ -105,14 +105,14 @@ impl<Sp: Space> Tree<Sp> {
 
 /// Acceleration that a rotating frame gives a point at `r` from its origin: α×r + ω×(ω×r).
 #[inline]
-fn carried<Sp: Space, S: Scalar>(
+fn carried<Sp: Algebra, S: Scalar>(
     omega: &Sp::Angular<S>,
     alpha: &Sp::Angular<S>,
     r: &Sp::Linear<S>,
 ) -> Sp::Linear<S> {
-    let centripetal = Sp::swept(omega, &Sp::swept(omega, r));
+    let centripetal = Sp::cross(omega, &Sp::cross(omega, r));
     if Sp::ANGLES > 1 {
-        centripetal + Sp::swept(alpha, r)
+        centripetal + Sp::cross(alpha, r)
     } else {
         centripetal
     }

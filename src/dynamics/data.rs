@@ -1,6 +1,6 @@
 //! Scratch of the algorithms: allocated once, overwritten at every evaluation.
 
-use super::space::{Space, Vector};
+use super::algebra::{Algebra, Vector};
 use super::{Ldl, Tree};
 use crate::autodiff::Scalar;
 
@@ -10,7 +10,7 @@ use crate::autodiff::Scalar;
 /// [`Tree::mass_matrix`] and [`Tree::bias`]. Vectors are in base axes, points relative to the
 /// origin of the base frame.
 #[derive(Debug, Clone)]
-pub struct Data<Sp: Space, S: Scalar> {
+pub struct Data<Sp: Algebra, S: Scalar> {
     // Kinematics, one a joint.
     pub(super) orientation: Vec<Sp::Orientation<S>>,
     pub(super) origin: Vec<Sp::Linear<S>>,
@@ -49,7 +49,7 @@ pub struct Data<Sp: Space, S: Scalar> {
     pub factors: Ldl<S>,
 }
 
-impl<Sp: Space, S: Scalar> Data<Sp, S> {
+impl<Sp: Algebra, S: Scalar> Data<Sp, S> {
     /// Scratch for `tree`.
     pub fn new(tree: &Tree<Sp>) -> Self {
         let n = tree.joint_count();

@@ -1,10 +1,10 @@
 //! Poses of all bodies in the base frame, eq. (1).
 
-use super::space::{Space, Vector};
+use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};
 use crate::autodiff::Scalar;
 
-impl<Sp: Space> Tree<Sp> {
+impl<Sp: Algebra> Tree<Sp> {
     /// Orientation, joint origin, axis and mass centre of every body for the joint positions `q`
     /// (rad or m, length n).
     pub fn kinematics<S: Scalar>(&self, q: &[S], data: &mut Data<Sp, S>) {
@@ -15,7 +15,7 @@ impl<Sp: Space> Tree<Sp> {
             };
             let mut joint = origin + Sp::rotated(&carrier, &link.offset);
             let angle = (link.kind == JointKind::Revolute).then(|| q[j].sin_cos());
-            let orientation = Sp::turned(&carrier, &link.fixed, angle, link.sign);
+            let orientation = Sp::after_joint(&carrier, &link.fixed, angle, link.sign);
             match link.kind {
                 JointKind::Revolute => data.axis[j] = Sp::axis(&orientation, link.sign),
                 JointKind::Prismatic => {
@@ -28,7 +28,7 @@ impl<Sp: Space> Tree<Sp> {
             // Mass that the joint turns into itself is seen at position zero: then nothing that
             // follows depends on this position, neither by its value nor by its operations.
             let seen = if link.symmetric {
-                Sp::turned(&carrier, &link.fixed, None, link.sign)
+                Sp::after_joint(&carrier, &link.fixed, None, link.sign)
             } else {
                 orientation
             };

@@ -65,19 +65,19 @@ impl<S: Scalar> Ldl<S> {
 }
 
 impl Ldl<f64> {
-    /// Overwrites `b` (length n) with the solution, for a right-hand side of any scalar.
+    /// Overwrites `b` (length n) with the solution, for constant factors and any scalar in `b`.
     #[inline(always)]
-    pub fn solve_over<S: Scalar>(&self, b: &mut [S]) {
+    pub fn solve_constant<S: Scalar>(&self, b: &mut [S]) {
         let n = self.n;
         for i in 0..n {
             for k in 0..i {
-                b[i] = b[i].plus_multiple(b[k], -self.lower[i * n + k]);
+                b[i] = b[i].plus_times(b[k], -self.lower[i * n + k]);
             }
         }
         for i in (0..n).rev() {
             b[i] = b[i] * self.inverse_diagonal[i];
             for k in i + 1..n {
-                b[i] = b[i].plus_multiple(b[k], -self.lower[k * n + i]);
+                b[i] = b[i].plus_times(b[k], -self.lower[k * n + i]);
             }
         }
     }

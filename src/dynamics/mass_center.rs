@@ -1,9 +1,9 @@
 //! Derivatives of the system's mass centre by the joint positions.
 
-use super::space::{Space, Vector};
+use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};
 
-impl<Sp: Space> Tree<Sp> {
+impl<Sp: Algebra> Tree<Sp> {
     /// Change of the system's mass centre in the base frame by joint position `k`, m a rad or 1.
     /// Needs [`Tree::momentum`].
     ///
@@ -23,7 +23,7 @@ impl<Sp: Space> Tree<Sp> {
         // The joint nearer to the base turns what the other one does.
         let (inner, outer) = (k.min(l), k.max(l));
         if self.carries(inner, Some(outer)) && self.links[inner].kind == JointKind::Revolute {
-            Sp::swept(&data.axis[inner], &self.system_center_by(data, outer))
+            Sp::cross(&data.axis[inner], &self.system_center_by(data, outer))
         } else {
             Sp::Linear::zero()
         }

@@ -1,10 +1,10 @@
 //! The reduced inertia matrix H of eq. (6).
 
-use super::space::{Space, Vector};
+use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};
 use crate::autodiff::Scalar;
 
-impl<Sp: Space> Tree<Sp> {
+impl<Sp: Algebra> Tree<Sp> {
     /// H = H_m − GᵀI₀⁻¹G (lower triangle), with the motion of the mass centre already taken out
     /// of H_m. Needs [`Tree::momentum`].
     pub fn mass_matrix<S: Scalar>(&self, data: &mut Data<Sp, S>) {

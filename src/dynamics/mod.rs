@@ -6,41 +6,49 @@
 //!
 //! | file | computes |
 //! | --- | --- |
+//! | `algebra` | vectors, motions, forces and inertia in the plane and in space |
 //! | `kinematics` | poses of all bodies, eq. (1) |
 //! | `momentum` | composite rigid bodies, momentum of unit joint rates, base rate, eq. (2), (5) |
 //! | `mass_center` | derivatives of the system's mass centre by the joint positions |
 //! | `mass_matrix` | the reduced inertia matrix H, eq. (6) |
 //! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
 //! | `attitude` | the rate map of the base attitude |
-//! | `mount` | frames fixed in bodies, the end effector's among them |
+//! | `mounted_frames` | frames fixed in bodies, the end effector's among them |
 //! | `sensitivity` | first and second derivatives of the free motion, by structure |
 //!
 //! All vectors are in the axes of the base body, so that nothing depends on the base attitude.
 
+mod algebra;
 pub mod attitude;
 mod bias;
+mod compile;
 mod data;
 mod inertia;
-mod inertness;
+mod joint;
 mod kinematics;
 mod ldl;
 mod mass_center;
 mod mass_matrix;
+mod massless;
 mod model;
+mod model_tree;
 mod momentum;
 mod mount;
+mod mounted_frames;
+mod placement;
 mod planarity;
-mod screw;
+mod relative_frames;
 mod sensitivity;
 pub mod space;
 mod tree;
 
 pub use data::Data;
 pub use inertia::{Inertia, InertiaError};
+pub use joint::{Body, Joint, JointKind, JointLimits};
 pub use ldl::Ldl;
-pub use model::{Body, Joint, JointKind, JointLimits, Model, ModelError, Placement};
+pub use model::{Model, ModelError};
 pub use mount::Mount;
+pub use placement::Placement;
 pub use planarity::{Deviation, Plane};
-pub use screw::Screws;
 pub use sensitivity::Sensitivity;
 pub use tree::Tree;

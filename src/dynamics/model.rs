@@ -1,100 +1,7 @@
 //! The robot as its maker describes it: a tree of bodies joined by one-axis joints.
 
 use super::planarity::{self, Deviation, Plane};
-use super::{Inertia, InertiaError, inertness};
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-
-/// Pose of a frame in another: rotation and translation (m).
-#[derive(Debug, Clone, PartialEq)]
-pub struct Placement {
-    /// Rotation matrix from the inner to the outer frame.
-    pub rotation: Matrix3<f64>,
-    /// Origin of the inner frame in the outer, m.
-    pub translation: Vector3<f64>,
-}
-
-impl Placement {
-    /// No rotation and no translation.
-    pub fn identity() -> Self {
-        Self {
-            rotation: Matrix3::identity(),
-            translation: Vector3::zeros(),
-        }
-    }
-
-    /// From a translation `xyz` (m) and fixed-axis angles `rpy` (rad), as URDF's `<origin>`.
-    pub fn from_xyz_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Self {
-        Self {
-            rotation: Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]).into_inner(),
-            translation: xyz.into(),
-        }
-    }
-
-    /// The pose of a frame whose pose in this one is `inner`.
-    pub fn then(&self, inner: &Self) -> Self {
-        Self {
-            rotation: self.rotation * inner.rotation,
-            translation: self.translation + self.rotation * inner.translation,
-        }
-    }
-}
-
-/// What a joint lets its body do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum JointKind {
-    /// Turn about the axis; position in rad.
-    Revolute,
-    /// Slide along the axis; position in m.
-    Prismatic,
-}
-
-/// Limits of a joint as the robot's maker gives them; infinite where there is none.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JointLimits {
-    /// Lowest and highest position, rad or m.
-    pub position: [f64; 2],
-    /// Largest speed, rad/s or m/s.
-    pub velocity: f64,
-    /// Largest torque or force, N·m or N.
-    pub effort: f64,
-}
-
-impl JointLimits {
-    /// No limit at all.
-    pub const NONE: Self = Self {
-        position: [f64::NEG_INFINITY, f64::INFINITY],
-        velocity: f64::INFINITY,
-        effort: f64::INFINITY,
-    };
-}
-
-/// A rigid body with its name.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Body {
-    /// Name, unique in the robot.
-    pub name: String,
-    /// Mass properties in the body's frame.
-    pub inertia: Inertia,
-}
-
-/// A joint and the body it moves.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Joint {
-    /// Name, unique in the robot.
-    pub name: String,
-    /// Turn or slide.
-    pub kind: JointKind,
-    /// The joint whose body carries this one; `None` for the base.
-    pub parent: Option<usize>,
-    /// Pose of the joint frame in the parent body's frame, at position zero.
-    pub placement: Placement,
-    /// Axis in the joint frame.
-    pub axis: Unit<Vector3<f64>>,
-    /// Limits from the robot's description.
-    pub limits: JointLimits,
-    /// The body it moves; its frame is the joint frame, moved by the joint.
-    pub body: Body,
-}
+use super::{Body, InertiaError, Joint, Placement, massless};
 
 /// A robot that cannot be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -127,7 +34,7 @@ pub enum ModelError {
         "joint '{joint}' can move without moving any mass: too little mass or inertia in body \
          '{body}' and what it carries"
     )]
-    Inert {
+    MasslessJoint {
         /// Name of the joint.
         joint: String,
         /// Name of the body it moves.
@@ -191,8 +98,8 @@ impl Model {
             end_effector: None,
             plane,
         };
-        match inertness::always(&model) {
-            Some(j) => Err(ModelError::Inert {
+        match massless::always(&model.base, &model.joints) {
+            Some(j) => Err(ModelError::MasslessJoint {
                 joint: model.joints[j].name.clone(),
                 body: model.joints[j].body.name.clone(),
             }),
@@ -254,8 +161,8 @@ impl Model {
     /// whose bodies all have mass and size.
     ///
     /// The reduced inertia matrix H is singular there.
-    pub fn inert_joint(&self, q: &[f64]) -> Option<usize> {
-        inertness::at(self, q)
+    pub fn massless_joint_at(&self, q: &[f64]) -> Option<usize> {
+        massless::at(&self.base, &self.joints, q)
     }
 
     /// Mass of all bodies together, kg.
@@ -266,5 +173,92 @@ impl Model {
             .map(|joint| joint.body.inertia.mass())
             .sum();
         self.base.inertia.mass() + links
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::{Inertia, JointKind, JointLimits};
+    use nalgebra::{Matrix3, Unit, Vector3};
+
+    fn body(name: &str, inertia: Inertia) -> Body {
+        Body {
+            name: name.into(),
+            inertia,
+        }
+    }
+
+    fn solid(mass: f64) -> Inertia {
+        Inertia::new(mass, Vector3::new(0.1, 0.0, 0.0), Matrix3::identity()).unwrap()
+    }
+
+    /// A chain with the given axes and bodies, joints half a metre apart along x.
+    fn chain(links: Vec<(Vector3<f64>, Inertia)>) -> Result<Model, ModelError> {
+        let joint = |(j, (axis, inertia)): (usize, (Vector3<f64>, Inertia))| Joint {
+            name: format!("joint{j}"),
+            kind: JointKind::Revolute,
+            parent: j.checked_sub(1),
+            placement: Placement::from_xyz_rpy(
+                [if j == 0 { 0.5 } else { 0.0 }, 0.0, 0.0],
+                [0.0; 3],
+            ),
+            axis: Unit::new_normalize(axis),
+            limits: JointLimits::NONE,
+            body: body(&format!("link{j}"), inertia),
+        };
+        let joints = links.into_iter().enumerate().map(joint).collect();
+        Model::new("chain", body("base", solid(50.0)), joints)
+    }
+
+    fn massless(result: Result<Model, ModelError>) -> String {
+        match result {
+            Err(ModelError::MasslessJoint { joint, .. }) => joint,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn massless_bodies_are_fine_between_joints_and_nowhere_else() {
+        let none = Inertia::massless;
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        assert!(chain(vec![(z, none()), (y, none()), (x, solid(1.0))]).is_ok());
+        assert_eq!(
+            massless(chain(vec![(z, solid(1.0)), (y, none())])),
+            "joint1"
+        );
+        assert_eq!(massless(chain(vec![(z, none()), (y, none())])), "joint0");
+        // Two joints of one axis, nothing between them.
+        assert_eq!(
+            massless(chain(vec![(z, none()), (z, solid(1.0))])),
+            "joint1"
+        );
+    }
+
+    #[test]
+    fn a_point_mass_is_moved_by_its_arm_and_not_by_its_own_axis() {
+        let point = Inertia::part(1.0, Vector3::new(0.2, 0.0, 0.0), Matrix3::zeros()).unwrap();
+        assert!(chain(vec![(Vector3::z(), point.clone())]).is_ok());
+        assert_eq!(massless(chain(vec![(Vector3::x(), point)])), "joint0");
+    }
+
+    #[test]
+    fn a_wrist_of_massless_bodies_is_singular_where_two_axes_meet() {
+        let none = Inertia::massless;
+        let (y, z) = (Vector3::y(), Vector3::z());
+        let model = chain(vec![(z, none()), (y, none()), (z, solid(1.0))]).unwrap();
+        assert_eq!(model.massless_joint_at(&[0.3, 0.0, 0.2]), Some(2));
+        assert_eq!(model.massless_joint_at(&[0.3, 0.4, 0.2]), None);
+    }
+
+    #[test]
+    fn a_base_needs_inertia() {
+        let base = body("base", Inertia::massless());
+        let joints = chain(vec![(Vector3::z(), solid(1.0))])
+            .unwrap()
+            .joints()
+            .to_vec();
+        let error = Model::new("r", base, joints).unwrap_err();
+        assert!(error.to_string().contains("'base' has no mass"), "{error}");
     }
 }

@@ -1,10 +1,10 @@
 //! Composite rigid bodies and momentum: how joint rates turn the base, eq. (2) and (5).
 
-use super::space::{Space, Vector};
+use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};
 use crate::autodiff::Scalar;
 
-impl<Sp: Space> Tree<Sp> {
+impl<Sp: Algebra> Tree<Sp> {
     /// Mass centre, inverse composite inertia, and the momentum of the unit rate of every joint.
     ///
     /// Needs [`Tree::kinematics`]. With the base held, unit rate of joint j gives the bodies it
@@ -18,8 +18,8 @@ impl<Sp: Space> Tree<Sp> {
                     let (axis, origin) = (&data.axis[j], &data.origin[j]);
                     let arm = data.first_moment[j] - origin.times(link.carried);
                     let about_origin = Sp::apply(&data.composite[j], axis)
-                        - Sp::moment(&data.first_moment[j], &Sp::swept(axis, origin));
-                    (Sp::swept(axis, &arm), about_origin)
+                        - Sp::moment(&data.first_moment[j], &Sp::cross(axis, origin));
+                    (Sp::cross(axis, &arm), about_origin)
                 }
                 JointKind::Prismatic => (
                     data.slide[j].times(link.carried),

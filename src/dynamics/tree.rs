@@ -1,13 +1,12 @@
-//! A model compiled for evaluation: only what the recursions read, in aligned frames.
+//! A robot compiled for evaluation: only what the recursions read, in aligned frames.
 
-use super::planarity::zero_poses;
-use super::space::{Planar, Space, Spatial, Symmetric};
-use super::{Inertia, JointKind, Model, Mount};
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use super::algebra::Algebra;
+use super::{JointKind, Mount, Placement};
+use nalgebra::Matrix3;
 
 /// One body with its joint. The base has no joint and is kept apart.
 #[derive(Debug, Clone)]
-pub(super) struct Link<Sp: Space> {
+pub(super) struct Link<Sp: Algebra> {
     pub parent: Option<usize>,
     pub kind: JointKind,
     /// Sense of rotation about the plane's normal; +1 in space.
@@ -28,9 +27,9 @@ pub(super) struct Link<Sp: Space> {
     pub carried: f64,
 }
 
-/// A [`Model`] compiled for the plane or for space.
+/// A [`Model`](super::Model) compiled for the plane or for space.
 #[derive(Debug, Clone)]
-pub struct Tree<Sp: Space> {
+pub struct Tree<Sp: Algebra> {
     pub(super) links: Vec<Link<Sp>>,
     pub(super) base_mass: f64,
     pub(super) base_center: Sp::Linear<f64>,
@@ -44,7 +43,7 @@ pub struct Tree<Sp: Space> {
     pub(super) end_effector: Option<Mount<Sp>>,
 }
 
-impl<Sp: Space> Tree<Sp> {
+impl<Sp: Algebra> Tree<Sp> {
     /// Number of joints n.
     pub fn joint_count(&self) -> usize {
         self.links.len()
@@ -55,6 +54,27 @@ impl<Sp: Space> Tree<Sp> {
         self.total_mass
     }
 
+    /// The frame `placement` in the body of joint `link` (`None`: the base).
+    ///
+    /// In the plane its heading is that of its x axis, or of its y axis where x stands on the
+    /// plane.
+    pub fn mount(&self, link: Option<usize>, placement: &Placement) -> Mount<Sp> {
+        let body = self.body_axes(link);
+        let offset = body * placement.translation;
+        Mount {
+            link,
+            orientation: Sp::constant_orientation(&(body * placement.rotation)),
+            offset: Sp::constant_vector(&offset),
+            height: link.map_or(0.0, |j| self.heights[j]) + offset.z,
+        }
+    }
+
+    /// Rotation from the frame of a body, as the model has it, to the axes it is compiled in, of
+    /// which the first two span the plane of a planar robot.
+    pub fn body_axes(&self, link: Option<usize>) -> &Matrix3<f64> {
+        link.map_or(&self.base_frame, |j| &self.frames[j])
+    }
+
     /// Whether joint `k` moves the body of joint `link`.
     pub(super) fn carries(&self, k: usize, mut link: Option<usize>) -> bool {
         while let Some(j) = link.filter(|&j| j > k) {
@@ -63,12 +83,12 @@ impl<Sp: Space> Tree<Sp> {
         link == Some(k)
     }
 
-    fn assemble(
+    /// Sums up what each joint carries.
+    pub(super) fn assemble(
         mut links: Vec<Link<Sp>>,
         base_mass: f64,
         base_center: Sp::Linear<f64>,
         base_inertia: Sp::Inertia<f64>,
-        model: &Model,
         frames: Vec<Matrix3<f64>>,
         base_frame: Matrix3<f64>,
     ) -> Self {
@@ -83,7 +103,8 @@ impl<Sp: Space> Tree<Sp> {
                 .filter(|link| link.parent.is_none())
                 .map(|link| link.carried)
                 .sum::<f64>();
-        let mut tree = Self {
+        Self {
+            heights: vec![0.0; links.len()],
             links,
             base_mass,
             base_center,
@@ -91,154 +112,7 @@ impl<Sp: Space> Tree<Sp> {
             total_mass,
             frames,
             base_frame,
-            heights: heights::<Sp>(model),
             end_effector: None,
-        };
-        tree.end_effector = model
-            .end_effector()
-            .map(|(link, placement)| tree.mount(*link, placement));
-        tree
+        }
     }
-}
-
-/// Heights of the joints' origins in the plane; they do not change.
-fn heights<Sp: Space>(model: &Model) -> Vec<f64> {
-    match model.plane().filter(|_| Sp::LENGTHS == Planar::LENGTHS) {
-        Some(plane) => zero_poses(model.joints())
-            .iter()
-            .map(|(_, origin)| plane.basis.column(2).dot(origin))
-            .collect(),
-        None => vec![0.0; model.joint_count()],
-    }
-}
-
-impl Tree<Planar> {
-    /// The planar form of a model, or `None` where its motion leaves the plane.
-    pub fn planar(model: &Model) -> Option<Self> {
-        let basis = model.plane()?.basis;
-        let poses = zero_poses(model.joints());
-        let flat = |v: Vector3<f64>| (basis.transpose() * v).xy();
-        let about_normal = |inertia: &Inertia| {
-            let normal = basis.column(2);
-            normal.dot(&(inertia.rotational() * normal))
-        };
-        let links = model
-            .joints()
-            .iter()
-            .zip(&poses)
-            .map(|(joint, (rotation, origin))| {
-                let carrier = joint
-                    .parent
-                    .map_or(Vector3::zeros(), |parent| poses[parent].1);
-                let inertia = joint.body.inertia.placed(rotation, &Vector3::zeros());
-                let axis = rotation * joint.axis.as_ref();
-                Link {
-                    parent: joint.parent,
-                    kind: joint.kind,
-                    sign: axis.dot(&basis.column(2)).signum(),
-                    fixed: Planar::aligned(),
-                    offset: flat(origin - carrier),
-                    slide: flat(axis),
-                    mass: inertia.mass(),
-                    center: flat(*inertia.center()),
-                    inertia: about_normal(&inertia),
-                    // In the plane no constant but the distance of the mass from the axis enters.
-                    symmetric: false,
-                    carried: inertia.mass(),
-                }
-            })
-            .collect();
-        let frames = poses
-            .iter()
-            .map(|(rotation, _)| basis.transpose() * rotation)
-            .collect();
-        let base = &model.base().inertia;
-        Some(Self::assemble(
-            links,
-            base.mass(),
-            flat(*base.center()),
-            about_normal(base),
-            model,
-            frames,
-            basis.transpose(),
-        ))
-    }
-}
-
-impl Tree<Spatial> {
-    /// The spatial form of a model; serves planar ones as well.
-    pub fn spatial(model: &Model) -> Self {
-        // Each joint frame is turned so that its axis is z.
-        let alignment: Vec<Matrix3<f64>> = model
-            .joints()
-            .iter()
-            .map(|joint| match joint.kind {
-                JointKind::Revolute => Rotation3::rotation_between(&Vector3::z(), &joint.axis)
-                    .unwrap_or_else(|| {
-                        Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
-                    })
-                    .into_inner(),
-                JointKind::Prismatic => Matrix3::identity(),
-            })
-            .collect();
-        let columns = |m: Matrix3<f64>| [0, 1, 2].map(|i| m.column(i).into_owned());
-        let links = model
-            .joints()
-            .iter()
-            .zip(&alignment)
-            .enumerate()
-            .map(|(j, (joint, aligned))| {
-                let parent = joint
-                    .parent
-                    .map_or(Matrix3::identity(), |p| alignment[p].transpose());
-                let inertia = joint
-                    .body
-                    .inertia
-                    .placed(&aligned.transpose(), &Vector3::zeros());
-                Link {
-                    parent: joint.parent,
-                    kind: joint.kind,
-                    sign: 1.0,
-                    fixed: columns(parent * joint.placement.rotation * aligned),
-                    offset: parent * joint.placement.translation,
-                    slide: *joint.axis,
-                    mass: inertia.mass(),
-                    center: *inertia.center(),
-                    inertia: Symmetric::from_matrix(inertia.rotational()),
-                    symmetric: joint.kind == JointKind::Revolute
-                        && model.joints().iter().all(|other| other.parent != Some(j))
-                        && is_symmetric(&inertia),
-                    carried: inertia.mass(),
-                }
-            })
-            .collect();
-        let base = &model.base().inertia;
-        Self::assemble(
-            links,
-            base.mass(),
-            *base.center(),
-            Symmetric::from_matrix(base.rotational()),
-            model,
-            alignment.iter().map(Matrix3::transpose).collect(),
-            Matrix3::identity(),
-        )
-    }
-}
-
-/// Departure from symmetry, relative to size and moments of inertia, that is rounding.
-const ROUNDING: f64 = 1e-12;
-
-/// Whether a body is symmetric about the z axis of its frame.
-fn is_symmetric(inertia: &Inertia) -> bool {
-    let (center, moments) = (inertia.center(), inertia.rotational());
-    let skew = [
-        moments.m11 - moments.m22,
-        moments.m12,
-        moments.m13,
-        moments.m23,
-    ];
-    center.xy().amax() <= ROUNDING * center.amax()
-        && skew
-            .iter()
-            .all(|gap| gap.abs() <= ROUNDING * moments.amax())
 }

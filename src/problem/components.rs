@@ -1,7 +1,7 @@
 //! What limits and weights have one component of.
 
 use crate::dynamics::Model;
-use crate::dynamics::space::{Planar, Space, Spatial};
+use crate::dynamics::space::{Algebra, Planar, Spatial};
 
 /// What a limit or a weight has one component of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -67,7 +67,7 @@ fn base_outputs<Sp: Space, S: Scalar>(
     attitude.rates(eta, omega, rates);
     limited.copy_from_slice(system.plant.limited_rates(rates, omega));
     if let [squared] = rotation {
-        *squared = attitude.squared_turn(eta);
+        *squared = attitude.squared_rotation_angle(eta);
     }
 }
 

@@ -69,7 +69,7 @@ pub fn limited_angles(trajectory: &Trajectory) -> Vec<Vec<f64>> {
     let rows = trajectory.base_attitude.iter();
     match trajectory.attitude {
         Some(attitude) if !attitude.is_angles() => rows
-            .map(|eta| vec![attitude.squared_turn::<f64>(eta).sqrt()])
+            .map(|eta| vec![attitude.squared_rotation_angle::<f64>(eta).sqrt()])
             .collect(),
         _ => rows.cloned().collect(),
     }

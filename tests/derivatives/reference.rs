@@ -1,6 +1,6 @@
 //! An independent hyper-dual number, of the `num-dual` crate.
 
-use ffsm_ipopt::autodiff::Scalar;
+use ffsm_ipopt::autodiff::{Scalar, Times};
 use num_dual::{DualNum, HyperDual64};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -28,6 +28,18 @@ macro_rules! operators {
 }
 
 operators!(Add add AddAssign add_assign, Sub sub SubAssign sub_assign, Mul mul MulAssign mul_assign);
+
+impl Times<f64> for Reference {
+    fn times(self, factor: f64) -> Self {
+        self * factor
+    }
+}
+
+impl Times<Self> for Reference {
+    fn times(self, factor: Self) -> Self {
+        self * factor
+    }
+}
 
 impl Div for Reference {
     type Output = Self;

@@ -48,7 +48,7 @@ impl Robot {
                 source.to_string(),
                 "a heavier root link, or a spacecraft under it: [base] with mass and inertia",
             ),
-            ModelError::Inert { joint, .. } => {
+            ModelError::MasslessJoint { joint, .. } => {
                 let entry = entries.iter().find(|entry| entry.joint.name == *joint);
                 ConfigError::Format {
                     place: entry.map_or(&self.place, |entry| &entry.place).clone(),

@@ -1,71 +1,15 @@
 //! How the base's orientation is described: one angle in the plane; roll-pitch-yaw, a unit
 //! quaternion or modified Rodrigues parameters in space.
 
+mod description;
+mod kind;
 mod planar;
 mod quaternion;
 mod rodrigues;
 mod roll_pitch_yaw;
+mod rotation_angle;
 mod spatial;
-mod turn;
 
+pub use description::Attitude;
+pub use kind::SpatialAttitude;
 pub use planar::PlanarAngle;
-pub use spatial::SpatialAttitude;
-
-use super::space::{Space, Vector};
-use crate::autodiff::Scalar;
-use std::fmt::Debug;
-
-/// A description of the base's orientation by parameters η, which are states of the problem.
-///
-/// A small value rather than a type of its own for each description: everything above is compiled
-/// once for the plane and once for space.
-pub trait Attitude<Sp: Space>: Copy + Debug + PartialEq + Send + Sync + 'static {
-    /// The description by angles, in which orientations are given: the heading in the plane,
-    /// roll-pitch-yaw in space.
-    const BY_ANGLES: Self;
-
-    /// Which of the descriptions in space this is; `None` in the plane.
-    fn in_space(self) -> Option<SpatialAttitude>;
-
-    /// Names of the parameters.
-    fn names(self) -> &'static [&'static str];
-
-    /// Number of parameters.
-    fn count(self) -> usize {
-        self.names().len()
-    }
-
-    /// Parameters of the orientation at t₀, in which base axes and inertial axes agree.
-    fn start(self) -> &'static [f64];
-
-    /// Whether the parameters are angles, each with limits and a cost of its own. Else these are
-    /// about the rotation angle from the orientation at t₀, and about the angular velocity.
-    fn is_angles(self) -> bool;
-
-    /// η̇ (length [`Attitude::count`]) for the base's angular velocity in base axes (rad/s).
-    fn rates<S: Scalar>(self, eta: &[S], omega: &Sp::Angular<S>, rates: &mut [S]);
-
-    /// A vector in base axes, turned to inertial axes.
-    fn to_inertial<S: Scalar>(self, eta: &[S], v: &Sp::Linear<S>) -> Sp::Linear<S>;
-
-    /// A constant angular vector in inertial axes, turned to base axes.
-    fn to_base<S: Scalar>(self, eta: &[S], v: &Sp::Angular<f64>) -> Sp::Angular<S>;
-
-    /// An orientation in base axes, turned to inertial axes.
-    fn orient<S: Scalar>(self, eta: &[S], orientation: &Sp::Orientation<S>) -> Sp::Orientation<S>;
-
-    /// φ², the square of the angle of the shortest rotation from the orientation at t₀; smooth at
-    /// zero, where φ is not.
-    fn squared_turn<S: Scalar>(self, eta: &[S]) -> S;
-
-    /// The constant orientation that `eta` describes.
-    fn orientation(self, eta: &[f64]) -> Sp::Orientation<f64> {
-        self.orient(eta, &Sp::aligned())
-    }
-
-    /// The base position ζ = −R(η)·r_cm relative to the system's mass centre (Remark 1), m.
-    #[inline]
-    fn base_position<S: Scalar>(self, eta: &[S], system_center: &Sp::Linear<S>) -> Sp::Linear<S> {
-        self.to_inertial(eta, &system_center.times(-1.0))
-    }
-}

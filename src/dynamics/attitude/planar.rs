@@ -2,7 +2,7 @@
 
 use super::{Attitude, SpatialAttitude};
 use crate::autodiff::Scalar;
-use crate::dynamics::space::Planar;
+use crate::dynamics::algebra::Planar;
 use nalgebra::{Vector1, Vector2};
 
 /// The angle from inertial to base axes, rad.
@@ -45,7 +45,7 @@ impl Attitude<Planar> for PlanarAngle {
     }
 
     #[inline]
-    fn squared_turn<S: Scalar>(self, eta: &[S]) -> S {
+    fn squared_rotation_angle<S: Scalar>(self, eta: &[S]) -> S {
         eta[0].square()
     }
 

@@ -6,7 +6,7 @@
 //! by no more than the plan's own error.
 
 use crate::autodiff::Scalar;
-use crate::dynamics::space::{Space, Spatial, Vector};
+use crate::dynamics::algebra::{Algebra, Spatial, Vector};
 use nalgebra::Vector3;
 
 pub(super) const NAMES: &[&str] = &["base q_w", "base q_x", "base q_y", "base q_z"];
@@ -23,13 +23,13 @@ pub(super) fn rates<S: Scalar>(eta: &[S], omega: &Vector3<S>, rates: &mut [S]) {
     let u = vector(eta);
     let half = omega.times(0.5);
     rates[0] = -Vector::dot(&u, &half);
-    let turn = half.scaled(eta[0]) + Spatial::gyroscopic(&u, &half);
-    rates[1..4].copy_from_slice(turn.components());
+    let rate = half.scaled(eta[0]) + Spatial::cross_angular(&u, &half);
+    rates[1..4].copy_from_slice(rate.components());
 }
 
 #[inline]
 pub(super) fn to_inertial<S: Scalar>(eta: &[S], v: &Vector3<S>) -> Vector3<S> {
     let u = vector(eta);
-    let swept = Spatial::swept(&u, v).times(2.0);
-    *v + swept.scaled(eta[0]) + Spatial::swept(&u, &swept)
+    let across = Spatial::cross(&u, v).times(2.0);
+    *v + across.scaled(eta[0]) + Spatial::cross(&u, &across)
 }

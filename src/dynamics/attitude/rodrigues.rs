@@ -4,7 +4,7 @@
 //! Sci. 44(1), 1996, 1–19.
 
 use crate::autodiff::Scalar;
-use crate::dynamics::space::{Space, Spatial, Vector};
+use crate::dynamics::algebra::{Algebra, Spatial, Vector};
 use nalgebra::Vector3;
 
 pub(super) const NAMES: &[&str] = &["base mrp x", "base mrp y", "base mrp z"];
@@ -21,9 +21,9 @@ pub(super) fn rates<S: Scalar>(eta: &[S], omega: &Vector3<S>, rates: &mut [S]) {
     let half = omega.times(0.5);
     let along = Vector::dot(&sigma, &half);
     let short = -Vector::dot(&sigma, &sigma) + 1.0;
-    let turn =
-        half.scaled(short).times(0.5) + Spatial::gyroscopic(&sigma, &half) + sigma.scaled(along);
-    rates[..3].copy_from_slice(turn.components());
+    let rate =
+        half.scaled(short).times(0.5) + Spatial::cross_angular(&sigma, &half) + sigma.scaled(along);
+    rates[..3].copy_from_slice(rate.components());
 }
 
 #[inline]
@@ -34,16 +34,16 @@ pub(super) fn to_inertial<S: Scalar>(eta: &[S], v: &Vector3<S>) -> Vector3<S> {
     let part = (square + 1.0).recip();
     let u = sigma.scaled(part * 2.0);
     let w = (-square + 1.0) * part;
-    let swept = Spatial::swept(&u, v).times(2.0);
-    *v + swept.scaled(w) + Spatial::swept(&u, &swept)
+    let across = Spatial::cross(&u, v).times(2.0);
+    *v + across.scaled(w) + Spatial::cross(&u, &across)
 }
 
 /// φ² of the shortest rotation, 0 to π²; beyond half a turn the shadow −σ/σ² is the shorter way.
 #[inline]
-pub(super) fn squared_turn<S: Scalar>(eta: &[S]) -> S {
+pub(super) fn squared_rotation_angle<S: Scalar>(eta: &[S]) -> S {
     let sigma = vector(eta);
     let square = Vector::dot(&sigma, &sigma);
-    super::turn::squared(if square.value() > 1.0 {
+    super::rotation_angle::squared(if square.value() > 1.0 {
         square.recip()
     } else {
         square

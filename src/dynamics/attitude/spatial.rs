@@ -1,36 +1,12 @@
 //! The base attitude in space, by one of three descriptions.
 
-use super::{Attitude, quaternion, rodrigues, roll_pitch_yaw, turn};
+use super::{Attitude, SpatialAttitude, quaternion, rodrigues, roll_pitch_yaw, rotation_angle};
 use crate::autodiff::Scalar;
-use crate::dynamics::space::{Space, Spatial, Vector};
+use crate::dynamics::algebra::{Algebra, Spatial, Vector};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// How the base attitude is described in space.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SpatialAttitude {
-    /// Roll φ, pitch ψ, yaw χ with R = Rz(χ)·Ry(ψ)·Rx(φ), as URDF. Singular at ψ = ±π/2.
-    #[default]
-    RollPitchYaw,
-    /// Unit quaternion w, x, y, z. Singular nowhere.
-    Quaternion,
-    /// Modified Rodrigues parameters, tan(φ/4) along the axis. Singular at a full turn.
-    Mrp,
-}
-
 impl SpatialAttitude {
-    /// All there are.
-    pub const ALL: [Self; 3] = [Self::RollPitchYaw, Self::Quaternion, Self::Mrp];
-
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RollPitchYaw => "roll-pitch-yaw",
-            Self::Quaternion => "quaternion",
-            Self::Mrp => "mrp",
-        }
-    }
-
     /// The orientation that `eta` describes.
     pub fn to_quaternion(self, eta: &[f64]) -> UnitQuaternion<f64> {
         match self {
@@ -148,14 +124,16 @@ impl Attitude<Spatial> for SpatialAttitude {
     }
 
     #[inline]
-    fn squared_turn<S: Scalar>(self, eta: &[S]) -> S {
+    fn squared_rotation_angle<S: Scalar>(self, eta: &[S]) -> S {
         match self {
             Self::RollPitchYaw => {
                 let (w, v) = roll_pitch_yaw::quaternion(eta);
-                turn::squared_by_quaternion(w, &v)
+                rotation_angle::squared_by_quaternion(w, &v)
             }
-            Self::Quaternion => turn::squared_by_quaternion(eta[0], &quaternion::vector(eta)),
-            Self::Mrp => rodrigues::squared_turn(eta),
+            Self::Quaternion => {
+                rotation_angle::squared_by_quaternion(eta[0], &quaternion::vector(eta))
+            }
+            Self::Mrp => rodrigues::squared_rotation_angle(eta),
         }
     }
 }

@@ -1,47 +1,11 @@
 //! Second derivatives of a weighted sum of the base's motion and the free accelerations.
 
-use super::*;
-use crate::autodiff::Kernel;
+use super::Sensitivity;
+use super::workspace::in_sweep;
+use crate::autodiff::{Dual, Kernel, Scalar, Times, dispatch};
+use crate::dynamics::algebra::{Algebra, Force, Motion, Vector};
 
-/// What the adjoint carries beside the motions and forces of the first pass.
-#[derive(Debug)]
-pub(super) struct Adjoint<Sp: Space, S: Scalar> {
-    /// Multipliers of the joints' residuals: rates of a virtual motion without momentum.
-    rates: Vec<f64>,
-    virtual_motion: Vec<Screw<Sp, S>>,
-    /// Its momentum.
-    virtual_momentum: Vec<Screw<Sp, S>>,
-    /// axis × velocity.
-    across: Vec<Screw<Sp, S>>,
-    /// What the velocity of each body weighs.
-    weight: Vec<Screw<Sp, S>>,
-    momentum: Vec<Screw<Sp, S>>,
-    /// The motion whose momentum the base's own rate is weighted with.
-    rigid: Vec<Screw<Sp, S>>,
-    /// Gradient by θ and θ̇, then by base motion, base acceleration and joint accelerations.
-    direct: Vec<S>,
-    implied: Vec<S>,
-}
-
-impl<Sp: Space, S: Scalar> Adjoint<Sp, S> {
-    pub fn new(n: usize) -> Self {
-        let screws = vec![Screw::zero(); n];
-        let components = 2 * (Sp::ANGLES + Sp::LENGTHS);
-        Self {
-            rates: vec![0.0; n],
-            virtual_motion: screws.clone(),
-            virtual_momentum: screws.clone(),
-            across: screws.clone(),
-            weight: screws.clone(),
-            momentum: screws.clone(),
-            rigid: screws,
-            direct: vec![S::zero(); 2 * n],
-            implied: vec![S::zero(); components + n],
-        }
-    }
-}
-
-impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// Second derivatives of Σ `accelerations`·q̈ + Σ `turning`·ω₀, after [`Sensitivity::first`].
     ///
     /// How ω₀ depends on the other directions is held straight; its curvature, weighted with
@@ -66,124 +30,118 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         let rigid = self.adjoint.rigid.first();
         rigid
             .into_iter()
-            .flat_map(|rigid| rigid.angular.as_ref().iter().map(|c| -c.value))
+            .flat_map(|rigid| rigid.angular.components().iter().map(|c| -c.value))
     }
 }
 
 /// Adds the values of `angle` to `sum`.
 #[inline(always)]
-fn add_values<Sp: Space, const N: usize, const FUSED: bool>(
-    sum: &mut Sp::Angle<f64>,
-    angle: &Sp::Angle<Dual<N, FUSED>>,
+fn add_values<Sp: Algebra, const N: usize, const FUSED: bool>(
+    sum: &mut Sp::Angular<f64>,
+    angle: &Sp::Angular<Dual<N, FUSED>>,
 ) {
-    for (sum, c) in sum.as_mut().iter_mut().zip(angle.as_ref()) {
+    for (sum, c) in sum.components_mut().iter_mut().zip(angle.components()) {
         *sum += c.value;
     }
 }
 
 /// One sweep.
-struct Second<'a, Sp: Space, const N: usize, const FUSED: bool> {
+struct Second<'a, Sp: Algebra, const N: usize, const FUSED: bool> {
     of: &'a mut Sensitivity<Sp, N, FUSED>,
     turning: &'a [f64],
     sweep: usize,
 }
 
-impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, FUSED> {
+impl<Sp: Algebra, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, FUSED> {
     #[inline(always)]
     fn run(self) {
         let Self { of, turning, sweep } = self;
         let start = sweep * N;
         let n = of.joints;
-        let lane = |direction: usize| Sensitivity::<Sp, N, FUSED>::lane(start, direction);
+        let place = |direction: usize| in_sweep::<N>(start, direction);
         let base_velocity = of.tangents[sweep].velocity;
         let base_acceleration = of.tangents[sweep].acceleration;
         let base_virtual = of.fixed.base_motion(&of.adjoint.rates).lifted();
 
         // Outwards: motions, and what each body makes of them.
         of.velocities(start, &base_velocity);
-        let mut couple = Sp::Angle::<f64>::zero();
+        let mut couple = Sp::Angular::<f64>::zero();
         for j in 0..n {
-            let across = of.fixed.axes[j].across(&of.passes.velocity[j]);
+            let across = of.fixed.axes[j].constant_cross(&of.passes.velocity[j]);
             of.acceleration(start, j, &base_acceleration, &across);
             let body = &of.fixed.bodies[j];
             let axis = &of.fixed.axes[j];
             let acceleration = &mut of.passes.acceleration[j];
-            acceleration.add_column(axis, of.tangents[sweep].joints[j]);
+            acceleration.add_constant_times(axis, of.tangents[sweep].joints[j]);
             let adjoint = &mut of.adjoint;
             let motion = of
                 .fixed
                 .carried(j, &mut adjoint.virtual_motion, &base_virtual);
-            motion.nudge(lane(j), &axis.across(&motion.value()), -1.0);
-            motion.shift(axis, adjoint.rates[j]);
+            motion.add_derivative(place(j), &axis.constant_cross(&motion.value()), -1.0);
+            motion.add_value(axis, adjoint.rates[j]);
             let velocity = &of.passes.velocity[j];
-            let at_center = body.at_center(velocity);
-            let beside = body.at_center(motion);
+            let at_center = body.center_velocity(velocity);
+            let beside = body.center_velocity(motion);
             let weight = body.couple((velocity, &at_center), (motion, &beside));
             add_values::<Sp, N, FUSED>(&mut couple, &weight);
             of.passes.force[j] = body.force(velocity, &at_center, acceleration);
             adjoint.momentum[j] = body.momentum(velocity, &at_center);
             adjoint.virtual_momentum[j] = body.momentum(motion, &beside);
-            adjoint.weight[j] = Screw {
-                angular: weight,
-                linear: Sp::Length::<Dual<N, FUSED>>::zero(),
-            };
+            adjoint.weight[j] = Force::new(weight, Sp::Linear::zero());
             adjoint.across[j] = across;
         }
         let own = &of.fixed.base;
-        let beside = own.at_center(&base_virtual);
+        let beside = own.center_velocity(&base_virtual);
         let own_weight = own.couple(
-            (&base_velocity, &own.at_center(&base_velocity)),
+            (&base_velocity, &own.center_velocity(&base_velocity)),
             (&base_virtual, &beside),
         );
         add_values::<Sp, N, FUSED>(&mut couple, &own_weight);
         let mut virtual_momentum = own.momentum(&base_virtual, &beside);
 
         // The motion, rigid about the mass centre, whose momentum weighs against all of that.
-        for (sum, weight) in couple.as_mut().iter_mut().zip(turning) {
+        for (sum, weight) in couple.components_mut().iter_mut().zip(turning) {
             *sum += weight;
         }
-        let turn = scaled(Sp::spin(&of.fixed.inverse_inertia, &couple), -1.0);
-        let rigid = Screw {
-            angular: turn,
-            linear: scaled(Sp::carry(&turn, &of.fixed.center), -1.0),
-        };
-        let rigid: Screw<Sp, Dual<N, FUSED>> = rigid.lifted();
+        let angular = Sp::apply_constant(&of.fixed.inverse_inertia, &couple).times(-1.0);
+        let linear = Sp::cross_constant(&angular, &of.fixed.center).times(-1.0);
+        let rigid: Motion<Sp, Dual<N, FUSED>> = Motion::new(angular, linear).lifted();
         for j in 0..n {
             let motion = of.fixed.carried(j, &mut of.adjoint.rigid, &rigid);
-            let turned = of.fixed.axes[j].across(&motion.value());
-            motion.nudge(lane(j), &turned, -1.0);
+            let carried_along = of.fixed.axes[j].constant_cross(&motion.value());
+            motion.add_derivative(place(j), &carried_along, -1.0);
         }
 
         // Inwards: the gradient.
-        let mut weight = own.momentum(&rigid, &own.at_center(&rigid));
-        weight.angular = sum(weight.angular, &own_weight);
+        let mut weight = own.momentum(&rigid, &own.center_velocity(&rigid));
+        weight.angular = weight.angular.plus(&own_weight);
         for j in (0..n).rev() {
             let adjoint = &mut of.adjoint;
             let axis = &of.fixed.axes[j];
             let body = &of.fixed.bodies[j];
             let rigid = &adjoint.rigid[j];
             // Until now the weight holds this body's couple and what its children handed on.
-            let rigid_momentum = body.momentum(rigid, &body.at_center(rigid));
+            let rigid_momentum = body.momentum(rigid, &body.center_velocity(rigid));
             adjoint.weight[j].add(&rigid_momentum);
             let (force, momentum) = (&of.passes.force[j], &adjoint.momentum[j]);
             let (weighs, beside) = (&adjoint.weight[j], &adjoint.virtual_momentum[j]);
             let across = &adjoint.across[j];
 
-            let mut pulled = axis.across(&of.passes.acceleration[j]);
-            pulled.add_scaled(&across.cross(&of.passes.velocity[j]), -1.0);
-            let by_position = axis.across(&adjoint.virtual_motion[j]).dot(force)
+            let mut pulled = axis.constant_cross(&of.passes.acceleration[j]);
+            pulled.add_times(&across.cross(&of.passes.velocity[j]), -1.0);
+            let by_position = axis.constant_cross(&adjoint.virtual_motion[j]).dot(force)
                 + across.dot(weighs)
                 + pulled.dot(beside)
-                + axis.across(rigid).dot(momentum);
+                + axis.constant_cross(rigid).dot(momentum);
             adjoint.direct[j] = -by_position;
             let by_rate = weighs.dot(axis);
-            adjoint.direct[n + j] = by_rate.plus_multiple(across.dot(beside), -2.0);
+            adjoint.direct[n + j] = by_rate.plus_times(across.dot(beside), -2.0);
             let joint = adjoint.implied.len() - n + j;
             adjoint.implied[joint] = beside.dot(axis);
 
             let fixed = &of.fixed;
             // What of these two reaches the base is of no use.
-            let mut forgotten = Screw::zero();
+            let mut forgotten = Force::zero();
             fixed.hand_on(start, j, &mut of.passes.force, &mut forgotten);
             fixed.hand_on(start, j, &mut adjoint.momentum, &mut forgotten);
             fixed.hand_on(start, j, &mut adjoint.weight, &mut weight);
@@ -194,7 +152,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
                 &mut virtual_momentum,
             );
         }
-        weight.add_scaled(&base_velocity.cross_force(&virtual_momentum), -1.0);
+        weight.add_times(&base_velocity.cross_force(&virtual_momentum), -1.0);
         let implied = weight.iter().chain(virtual_momentum.iter());
         for (to, &from) in of.adjoint.implied.iter_mut().zip(implied) {
             *to = from;
@@ -203,7 +161,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, 
     }
 }
 
-impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// Columns `start`.. of the lower triangle: the gradient's own derivatives, and those by what
     /// the directions imply.
     #[inline(always)]
@@ -211,7 +169,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         let width = self.tangents.len() * N;
         for row in start..self.directions() {
             let tangent = &self.tangents[row / N];
-            let lane = row % N;
+            let place = row % N;
             let mut sums = match self.adjoint.direct.get(row) {
                 Some(direct) => *direct,
                 None => Dual::constant(0.0),
@@ -223,7 +181,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
                 .iter()
                 .zip(implied.chain(&tangent.joints))
             {
-                sums = sums.plus_multiple(*by, along.gradient[lane]);
+                sums = sums.plus_times(*by, along.gradient[place]);
             }
             self.hessian[row * width + start..][..N].copy_from_slice(&sums.gradient);
         }

@@ -46,7 +46,7 @@ fn within(
 /// that have none: no torque belongs to a motion there.
 pub(super) fn move_mass(problem: &ProblemBuilder) -> Checked {
     let ProblemBuilder { robot, task, .. } = problem;
-    let at = |key: String, joints: &[f64]| match robot.inert_joint(joints) {
+    let at = |key: String, joints: &[f64]| match robot.massless_joint_at(joints) {
         Some(joint) => Err(error(
             key,
             format!(

@@ -39,7 +39,7 @@ impl<Sp: Space> EndTerm<Sp> for FinalAttitudeTerm {
     fn value<S: Scalar>(&self, at: &Pose<'_, Sp, S>) -> S {
         match self {
             Self::Angles(weights) => weighted_squares(weights, at.eta),
-            Self::Rotation(weight) => at.plant.attitude.squared_turn(at.eta) * *weight,
+            Self::Rotation(weight) => at.plant.attitude.squared_rotation_angle(at.eta) * *weight,
         }
     }
 }

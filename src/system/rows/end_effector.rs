@@ -116,7 +116,7 @@ impl<Sp: Space> EndRows<Sp> for EndEffectorRows<Sp> {
                 GoalFrame::Base => orientation,
                 GoalFrame::Inertial | GoalFrame::Start => attitude.orient(at.eta, &orientation),
             };
-            Sp::turn_between(&seen, goal, turned);
+            Sp::rotation_between(&seen, goal, turned);
         }
     }
 }

@@ -111,6 +111,6 @@ impl<Sp: Space> EndRows<Sp> for RotationAngleRow {
     }
 
     fn values<S: Scalar>(&self, at: &Pose<'_, Sp, S>, rows: &mut [S]) {
-        rows[0] = at.plant.attitude.squared_turn(at.eta) * self.factor;
+        rows[0] = at.plant.attitude.squared_rotation_angle(at.eta) * self.factor;
     }
 }

@@ -112,7 +112,11 @@ fn rotations<Sp: Space>(
     let attitude = system.attitude();
     let turned: Vec<f64> = states
         .iter()
-        .map(|x| attitude.squared_turn(&x[..attitude.count()]).sqrt())
+        .map(|x| {
+            attitude
+                .squared_rotation_angle(&x[..attitude.count()])
+                .sqrt()
+        })
         .collect();
     let largest = turned.iter().copied().fold(0.0, f64::max);
     let limits = &problem.limits;

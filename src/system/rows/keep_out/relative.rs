@@ -92,9 +92,7 @@ impl<Sp: Space> RelativePoints<Sp> {
         from_fn(|i| {
             let start = S::constant(height * self.axes[(2, i)]);
             let parts = vector.iter().enumerate();
-            parts.fold(start, |sum, (j, &c)| {
-                sum.plus_multiple(c, self.axes[(j, i)])
-            })
+            parts.fold(start, |sum, (j, &c)| sum.plus_times(c, self.axes[(j, i)]))
         })
     }
 }
