@@ -1,6 +1,6 @@
 //! Pairs of solids that are kept apart along the path.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use std::fmt;
 
 /// What a solid fills, in the frame of the body that carries it.
@@ -23,6 +23,74 @@ pub enum Shape {
         /// Half of each edge, m.
         half: [f64; 3],
     },
+}
+
+impl Shape {
+    /// Balls that it is made of, one after the other along its length: centre and radius, m; none
+    /// of a box.
+    pub fn balls(&self) -> Vec<([f64; 3], f64)> {
+        match self {
+            Self::Sphere { center, radius } => vec![(*center, *radius)],
+            Self::Box { .. } => Vec::new(),
+        }
+    }
+
+    /// The eight corners of a box, m, that of least coordinates first and x changing fastest; none
+    /// of other shapes.
+    pub fn corners(&self) -> Vec<[f64; 3]> {
+        let Self::Box {
+            center,
+            rotation,
+            half,
+        } = self
+        else {
+            return Vec::new();
+        };
+        let corner = |number: usize| {
+            let sign = |axis: usize| if number >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            let from_center = Vector3::from_fn(|axis, _| sign(axis) * half[axis]);
+            (Vector3::from(*center) + rotation * from_center).into()
+        };
+        (0..8).map(corner).collect()
+    }
+
+    /// Its key in the problem file where it stands first in a pair.
+    pub(super) fn key(&self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "sphere",
+            Self::Box { .. } => "first",
+        }
+    }
+
+    /// What is wrong with its numbers: key, what stands there, what was expected.
+    pub(super) fn fault(&self) -> Option<(&'static str, String, &'static str)> {
+        match self {
+            Self::Sphere { center, radius } => finite("center", center).or(length(*radius)),
+            Self::Box {
+                center,
+                rotation,
+                half,
+            } => {
+                let off = (rotation.transpose() * rotation - Matrix3::identity()).amax();
+                let turned = (off.is_nan() || off > 1e-6)
+                    .then(|| ("rotation", rotation.to_string(), "a rotation matrix"));
+                let flat = half.iter().find(|h| !(h.is_finite() && **h > 0.0));
+                let flat = flat.map(|h| ("half", h.to_string(), "finite lengths above zero, m"));
+                finite("center", center).or(turned).or(flat)
+            }
+        }
+    }
+}
+
+fn finite(key: &'static str, numbers: &[f64]) -> Option<(&'static str, String, &'static str)> {
+    let number = numbers.iter().find(|number| !number.is_finite())?;
+    Some((key, number.to_string(), "finite numbers"))
+}
+
+fn length(radius: f64) -> Option<(&'static str, String, &'static str)> {
+    let expected = "a finite length, m, zero or above";
+    let wrong = !(radius.is_finite() && radius >= 0.0);
+    wrong.then(|| ("radius", radius.to_string(), expected))
 }
 
 impl fmt::Display for Shape {

@@ -3,9 +3,8 @@
 
 use super::checks::{Checked, error};
 use crate::problem::builder::ProblemBuilder;
-use crate::problem::keep_out::{KeepOut, Shape, Solid};
+use crate::problem::keep_out::{KeepOut, Solid};
 use crate::problem::limit_id::LimitId;
-use nalgebra::Matrix3;
 
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     for (i, one) in problem.limits.keep_out.iter().enumerate() {
@@ -16,10 +15,7 @@ pub(super) fn check(problem: &ProblemBuilder) -> Checked {
 }
 
 fn pair(key: &str, pair: &KeepOut, joints: usize) -> Checked {
-    let of_first = match pair.first.shape {
-        Shape::Sphere { .. } => "sphere",
-        Shape::Box { .. } => "first",
-    };
+    let of_first = pair.first.shape.key();
     let (first, second) = (&pair.first, &pair.second);
     solid(first, joints, |rest| format!("{key}.{of_first}.{rest}"))?;
     solid(second, joints, |rest| format!("{key}.from.{rest}"))?;
@@ -44,36 +40,11 @@ fn pair(key: &str, pair: &KeepOut, joints: usize) -> Checked {
 }
 
 fn solid(solid: &Solid, joints: usize, key: impl Fn(&str) -> String) -> Checked {
-    let finite = |name: &str, numbers: &[f64]| match numbers.iter().find(|n| !n.is_finite()) {
-        Some(number) => Err(error(key(name), number, "finite numbers")),
-        None => Ok(()),
-    };
     if solid.joint.is_some_and(|joint| joint >= joints) {
         return Err(error(key("body"), "no such body", "a body of the robot"));
     }
-    match &solid.shape {
-        Shape::Sphere { center, radius } => {
-            finite("center", center)?;
-            if !(radius.is_finite() && *radius >= 0.0) {
-                let expected = "a finite length, m, zero or above";
-                return Err(error(key("radius"), radius, expected));
-            }
-        }
-        Shape::Box {
-            center,
-            rotation,
-            half,
-        } => {
-            finite("center", center)?;
-            let off = (rotation.transpose() * rotation - Matrix3::identity()).amax();
-            if off.is_nan() || off > 1e-6 {
-                let expected = "a rotation matrix";
-                return Err(error(key("rotation"), rotation, expected));
-            }
-            if let Some(h) = half.iter().find(|h| !(h.is_finite() && **h > 0.0)) {
-                return Err(error(key("half"), h, "finite lengths above zero, m"));
-            }
-        }
+    match solid.shape.fault() {
+        Some((name, found, expected)) => Err(error(key(name), found, expected)),
+        None => Ok(()),
     }
-    Ok(())
 }

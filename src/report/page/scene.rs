@@ -2,7 +2,7 @@
 
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::dynamics::{Body, Model};
-use crate::problem::{KeepOut, Problem, Shape, Solid};
+use crate::problem::{KeepOut, Problem, Solid};
 use crate::system::Trajectory;
 use crate::verify::bodies::{BaseMotion, Bodies, orientation};
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
@@ -166,23 +166,22 @@ impl<'a> Skeleton<'a> {
     }
 
     fn solid(&mut self, solid: &Solid) {
-        match &solid.shape {
-            Shape::Sphere { center, radius } => self.ball(solid.joint, *center, *radius),
-            Shape::Box {
-                center,
-                rotation,
-                half,
-            } => self.cuboid(solid.joint, cuboid((*center).into(), rotation, *half)),
+        let corners = solid.shape.corners().into_iter().map(Vector3::from);
+        self.cuboid(solid.joint, corners.collect());
+        let mut last = None;
+        for (center, radius) in solid.shape.balls() {
+            let centre = self.attach((solid.joint, center.into()));
+            self.balls.push((centre, radius));
+            self.boxes.extend(last.map(|last| [last, centre]));
+            last = Some(centre);
         }
-    }
-
-    fn ball(&mut self, joint: Option<usize>, center: [f64; 3], radius: f64) {
-        let centre = self.attach((joint, center.into()));
-        self.balls.push((centre, radius));
     }
 
     /// The edges between the eight corners, or the outline in the plane of motion.
     fn cuboid(&mut self, joint: Option<usize>, mut corners: Vec<Vector3<f64>>) {
+        if corners.is_empty() {
+            return;
+        }
         if self.robot.plane().is_some() {
             corners = outline(&corners, &(self.to_picture * at_zero(self.robot, joint)));
         }
