@@ -18,13 +18,22 @@ pub(super) fn read(item: &Item<'_>, robot: &Robot) -> Result<Vec<KeepOut>, Confi
 }
 
 fn one(item: &Item<'_>, robot: &Robot) -> Result<KeepOut, ConfigError> {
-    let section = item.section(&["name", "sphere", "from"])?;
-    let expected = "a table with body, center and radius";
-    let (first, carrier) = sphere(section.require("sphere", expected)?, robot)?;
-    let expected = "a table with body, center and radius, or with body, center and half for a box";
+    let section = item.section(&["name", "sphere", "capsule", "from"])?;
+    let expected = "a table with body, center and radius, or capsule";
+    let (first, carrier) = match (section.get("capsule"), section.get("sphere")) {
+        (Some(item), None) => capsule(item, robot)?,
+        (Some(item), Some(_)) => {
+            return Err(item.error("sphere as well", "either sphere or capsule"));
+        }
+        (None, _) => sphere(section.require("sphere", expected)?, robot)?,
+    };
+    let expected = "a table with body, center and radius, with body, ends and radius for a \
+                    capsule, or with body, center and half for a box";
     let from = section.require("from", expected)?;
     let (second, _) = if has(from, "half") {
         cuboid(from, robot)?
+    } else if has(from, "ends") {
+        capsule(from, robot)?
     } else {
         sphere(from, robot)?
     };
@@ -60,6 +69,20 @@ fn sphere<'a>(item: &Item<'a>, robot: &Robot) -> Result<Named<'a>, ConfigError> 
     let radius = radius(&section)?;
     let center = placed(&placement, center);
     Ok((Solid::sphere(joint, center, radius), body.text(BODY)?))
+}
+
+fn capsule<'a>(item: &Item<'a>, robot: &Robot) -> Result<Named<'a>, ConfigError> {
+    let section = item.section(&["body", "ends", "radius"])?;
+    let body = section.require("body", BODY)?;
+    let (joint, placement) = find(body, robot)?;
+    let expected = "the two ends of the axis, [[x, y, z], [x, y, z]] in the body's frame, m";
+    let ends = section.require("ends", expected)?;
+    let [a, b] = &ends.as_elements().unwrap_or_default()[..] else {
+        return Err(ends.unexpected(expected));
+    };
+    let ends = [a.triple(expected)?, b.triple(expected)?].map(|end| placed(&placement, end));
+    let solid = Solid::capsule(joint, ends, radius(&section)?);
+    Ok((solid, body.text(BODY)?))
 }
 
 fn cuboid<'a>(item: &Item<'a>, robot: &Robot) -> Result<Named<'a>, ConfigError> {

@@ -14,6 +14,13 @@ pub enum Shape {
         /// Radius, m; 0 for a point.
         radius: f64,
     },
+    /// A ball swept along a line, as a link is.
+    Capsule {
+        /// Where the centre of the ball begins and ends, m.
+        ends: [[f64; 3]; 2],
+        /// Radius, m; 0 for a line.
+        radius: f64,
+    },
     /// A box.
     Box {
         /// Centre, m.
@@ -31,6 +38,7 @@ impl Shape {
     pub fn balls(&self) -> Vec<([f64; 3], f64)> {
         match self {
             Self::Sphere { center, radius } => vec![(*center, *radius)],
+            Self::Capsule { ends, radius } => ends.map(|end| (end, *radius)).to_vec(),
             Self::Box { .. } => Vec::new(),
         }
     }
@@ -58,6 +66,7 @@ impl Shape {
     pub(super) fn key(&self) -> &'static str {
         match self {
             Self::Sphere { .. } => "sphere",
+            Self::Capsule { .. } => "capsule",
             Self::Box { .. } => "first",
         }
     }
@@ -66,6 +75,12 @@ impl Shape {
     pub(super) fn fault(&self) -> Option<(&'static str, String, &'static str)> {
         match self {
             Self::Sphere { center, radius } => finite("center", center).or(length(*radius)),
+            Self::Capsule { ends, radius } => {
+                let same = (ends[0] == ends[1])
+                    .then(|| ("ends", "two equal points".into(), "two points apart"));
+                let numbers = ends.as_flattened();
+                finite("ends", numbers).or(same).or(length(*radius))
+            }
             Self::Box {
                 center,
                 rotation,
@@ -98,6 +113,14 @@ impl fmt::Display for Shape {
         match self {
             Self::Sphere { radius: 0.0, .. } => f.write_str("a point"),
             Self::Sphere { radius, .. } => write!(f, "a sphere of {} cm", centimetres(*radius)),
+            Self::Capsule { ends, radius } => {
+                let [a, b] = ends.map(Vector3::from);
+                let (length, radius) = (centimetres((b - a).norm()), centimetres(*radius));
+                write!(
+                    f,
+                    "a capsule of {length} cm, {radius} cm thick around its axis"
+                )
+            }
             Self::Box { half, .. } => {
                 let [x, y, z] = half.map(|h| centimetres(2.0 * h));
                 write!(f, "a box of {x} × {y} × {z} cm")
@@ -124,6 +147,12 @@ impl Solid {
     /// A sphere in the body of joint `joint` (`None`: the base); centre and radius in m.
     pub fn sphere(joint: Option<usize>, center: [f64; 3], radius: f64) -> Self {
         let shape = Shape::Sphere { center, radius };
+        Self { joint, shape }
+    }
+
+    /// A capsule in the body of joint `joint` (`None`: the base); ends of its axis and radius in m.
+    pub fn capsule(joint: Option<usize>, ends: [[f64; 3]; 2], radius: f64) -> Self {
+        let shape = Shape::Capsule { ends, radius };
         Self { joint, shape }
     }
 

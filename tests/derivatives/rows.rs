@@ -65,6 +65,17 @@ fn pairs_kept_apart() {
                     pair("off the box", Solid::cuboid(None, center, half)),
                     pair("along the arm, a box", Solid::cuboid(Some(0), center, half)),
                     KeepOut {
+                        name: "a capsule off the box".into(),
+                        first: Solid::capsule(Some(last), [at, [0.5, -0.1, 0.2]], 0.1),
+                        second: Solid::cuboid(None, center, half),
+                    },
+                    KeepOut {
+                        name: "a capsule along the arm".into(),
+                        first: Solid::capsule(Some(last), [at, [0.5, -0.1, 0.2]], 0.1),
+                        second: Solid::capsule(Some(0), [[0.0; 3], [0.3, 0.1, 0.4]], 0.2),
+                    },
+                    pair("off a capsule", Solid::capsule(None, [[0.0; 3], at], 0.2)),
+                    KeepOut {
                         name: "a box in front".into(),
                         first: Solid::cuboid(Some(last), center, [0.1, 0.2, 0.3]),
                         second: Solid::sphere(None, at, 0.0),
@@ -78,7 +89,7 @@ fn pairs_kept_apart() {
             row.starts_with("along the arm") && column.starts_with("joint 1 position")
         };
         // In front of a face the distance hangs on one component alone.
-        let faced = |row: &str| row.contains("box");
+        let faced = |row: &str| row.contains("box") || row.contains("capsule");
         let cancels = |row: &str, column: &str| both_carried(row, column) || faced(row);
         check_problem_with(&problem, Mesh::uniform(1, 2).unwrap(), cancels);
     }

@@ -18,9 +18,10 @@ use crate::system::instant::{Instant, Pose};
 use crate::system::linearization::{Linearization, Lower};
 use crate::system::plant::Plant;
 use distance::Core;
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use relative::RelativePoints;
 use std::array::from_fn;
+use std::f64::consts::PI;
 use std::slice;
 
 /// A pair compiled for evaluation. Its row is the clearance, at least 0 where the pair is apart.
@@ -71,20 +72,37 @@ impl<Sp: Space> KeepOutRow<Sp> {
 
     /// The clearance, m.
     fn value<S: Scalar>(&self, tree: &Tree<Sp>, data: &Data<Sp, S>) -> S {
-        self.clearance(&self.points.position(0, tree, data))
+        let last = self.points.count() - 1;
+        self.clearance(&[0, last].map(|i| self.points.position(i, tree, data)))
     }
 
-    fn clearance<S: Scalar>(&self, point: &[S; 3]) -> S {
-        self.core.to_point(point) - self.radius
+    fn clearance<S: Scalar>(&self, [a, b]: &[[S; 3]; 2]) -> S {
+        let distance = match self.points.count() {
+            1 => self.core.to_point(a),
+            _ => self.core.to_segment(a, b),
+        };
+        distance - self.radius
     }
 
     /// Adds the value's derivatives by the joint positions to `row`.
     fn add_gradient(&self, tree: &Tree<Sp>, data: &Data<Sp, f64>, row: &mut [f64]) {
-        let point = self.points.position(0, tree, data);
-        let seeded = from_fn(|i| Dual::<3>::seeded(point[i], i));
+        match self.points.count() {
+            1 => self.gradient_over::<3>(tree, data, row),
+            _ => self.gradient_over::<6>(tree, data, row),
+        }
+    }
+
+    /// The same with the `N` coordinates of the points as directions.
+    fn gradient_over<const N: usize>(
+        &self,
+        tree: &Tree<Sp>,
+        data: &Data<Sp, f64>,
+        row: &mut [f64],
+    ) {
+        let seeded = self.seeded::<N, _>(tree, data, Dual::<N>::seeded);
         let slope = self.clearance(&seeded).gradient;
         for &k in self.points.joints() {
-            row[k] += inner(&self.points.by(0, tree, data, k), &slope);
+            row[k] += inner(&self.by::<N>(tree, data, k), &slope);
         }
     }
 
@@ -93,22 +111,64 @@ impl<Sp: Space> KeepOutRow<Sp> {
         &self,
         tree: &Tree<Sp>,
         data: &Data<Sp, f64>,
+        add: impl FnMut(usize, usize, f64),
+    ) {
+        match self.points.count() {
+            1 => self.curvature_over::<3>(tree, data, add),
+            _ => self.curvature_over::<6>(tree, data, add),
+        }
+    }
+
+    fn curvature_over<const N: usize>(
+        &self,
+        tree: &Tree<Sp>,
+        data: &Data<Sp, f64>,
         mut add: impl FnMut(usize, usize, f64),
     ) {
-        let point = self.points.position(0, tree, data);
-        let seeded = from_fn(|i| HyperDual::<3, 3>::seeded(point[i], Some(i), Some(i)));
-        let measured = self.clearance(&seeded);
+        let seed = |value, i| HyperDual::<N, N>::seeded(value, Some(i), Some(i));
+        let measured = self.clearance(&self.seeded::<N, _>(tree, data, seed));
         let joints = self.points.joints();
         for (i, &k) in joints.iter().enumerate() {
-            let by_k = self.points.by(0, tree, data, k);
+            let by_k = self.by::<N>(tree, data, k);
             let bent = measured.block.map(|row| inner(&by_k, &row));
             for &l in &joints[..=i] {
-                let by_l = self.points.by(0, tree, data, l);
-                let by_both = self.points.by_both(0, tree, data, k, l);
+                let by_l = self.by::<N>(tree, data, l);
+                let by_both: [f64; N] =
+                    coordinates(|point| self.points.by_both(point, tree, data, k, l));
                 add(k, l, inner(&by_l, &bent) + inner(&by_both, &measured.rows));
             }
         }
     }
+
+    /// First and last point with a direction for each of the first `N` coordinates.
+    fn seeded<const N: usize, S: Scalar>(
+        &self,
+        tree: &Tree<Sp>,
+        data: &Data<Sp, f64>,
+        seed: impl Fn(f64, usize) -> S,
+    ) -> [[S; 3]; 2] {
+        from_fn(|point| {
+            let at = self.points.position(point.min(N / 3 - 1), tree, data);
+            from_fn(|i| match 3 * point + i < N {
+                true => seed(at[i], 3 * point + i),
+                false => S::constant(at[i]),
+            })
+        })
+    }
+
+    /// Change of the coordinates by joint position `k`.
+    fn by<const N: usize>(&self, tree: &Tree<Sp>, data: &Data<Sp, f64>, k: usize) -> [f64; N] {
+        coordinates(|point| self.points.by(point, tree, data, k))
+    }
+}
+
+/// Coordinates of `N`/3 points, one after the other.
+fn coordinates<const N: usize>(of: impl Fn(usize) -> [f64; 3]) -> [f64; N] {
+    let mut all = [0.0; N];
+    for (point, coordinates) in all.chunks_exact_mut(3).enumerate() {
+        coordinates.copy_from_slice(&of(point));
+    }
+    all
 }
 
 impl<Sp: Space> PathRows<Sp> for KeepOutRow<Sp> {
@@ -150,6 +210,7 @@ fn inner(a: &[f64], b: &[f64]) -> f64 {
 fn spine(shape: &Shape) -> (Vec<[f64; 3]>, f64) {
     match *shape {
         Shape::Sphere { center, radius } => (vec![center], radius),
+        Shape::Capsule { ends, radius } => (ends.to_vec(), radius),
         Shape::Box { .. } => panic!("a box against a box"),
     }
 }
@@ -162,6 +223,20 @@ fn core(shape: &Shape) -> (Placement, [f64; 3], f64) {
     };
     match *shape {
         Shape::Sphere { center, radius } => (frame(center, Matrix3::identity()), [0.0; 3], radius),
+        Shape::Capsule { ends, radius } => {
+            let [a, b] = ends.map(Vector3::from);
+            let along = b - a;
+            let half = 0.5 * along.norm();
+            // The axis of the capsule is that of z.
+            let rotation = Rotation3::rotation_between(&Vector3::z(), &along)
+                .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), PI));
+            let center = 0.5 * (a + b);
+            (
+                frame(center.into(), rotation.into_inner()),
+                [0.0, 0.0, half],
+                radius,
+            )
+        }
         Shape::Box {
             center,
             rotation,

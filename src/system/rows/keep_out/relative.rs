@@ -48,6 +48,11 @@ impl<Sp: Space> RelativePoints<Sp> {
         }
     }
 
+    /// Number of points.
+    pub fn count(&self) -> usize {
+        self.points.len()
+    }
+
     /// Joints that move the points as seen from the solid, ascending.
     pub fn joints(&self) -> &[usize] {
         &self.joints
