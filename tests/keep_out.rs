@@ -141,7 +141,7 @@ fn closest_to_box(plan: &Plan, center: [f64; 2], half: [f64; 2]) -> f64 {
 #[test]
 fn the_arm_stays_out_of_a_box_and_no_farther() {
     let mut problem = swing().into_builder();
-    let (center, half) = ([1.0, 0.0, 0.0], [0.1, 0.15, 0.2]);
+    let (center, half) = ([1.0, 0.0, 0.0], [0.15, 0.15, 0.2]);
     problem.limits.keep_out = off("box", 0.05, Solid::cuboid(None, center, half));
     let plan = solve(&problem);
     assert_eq!(plan.status, Status::Solved);
@@ -152,7 +152,7 @@ fn the_arm_stays_out_of_a_box_and_no_farther() {
         left > problem.mesh.bound_tolerance,
         !plan.warnings.is_empty()
     );
-    let clearance = closest_to_box(&plan, [1.0, 0.0], [0.1, 0.15]) - 0.05;
+    let clearance = closest_to_box(&plan, [1.0, 0.0], [0.15, 0.15]) - 0.05;
     assert!(clearance.abs() < 2e-3 * 0.15, "{clearance}");
 }
 
@@ -176,7 +176,7 @@ fn the_arm_may_touch_a_face() {
 fn what_is_above_the_plane_is_not_in_the_way() {
     let mut problem = swing().into_builder();
     let free = solve(&problem);
-    for (height, in_the_way) in [(0.35, false), (0.25, true)] {
+    for (height, in_the_way) in [(0.35, false), (0.2, true)] {
         let above = Solid::sphere(None, [MAST[0], MAST[1], height], 0.25);
         problem.limits.keep_out = off("above", 0.05, above);
         let plan = solve(&problem);
@@ -249,4 +249,31 @@ fn a_pair_may_have_any_name() {
     problem.limits.keep_out[0].name = "base rotation angle".into();
     let plan = solve(&problem);
     assert_eq!(plan.status, Status::Infeasible, "{:?}", plan.iterations);
+}
+
+/// The whole forearm, as a capsule, goes around a mast that its end alone would pass by.
+#[test]
+fn a_link_is_kept_off_along_its_whole_length() {
+    let mut problem = swing().into_builder();
+    let mast = Solid::sphere(None, [0.75, 0.0, 0.0], 0.05);
+    let forearm = Solid::capsule(Some(1), [[0.0; 3], [0.506, 0.0, 0.0]], 0.03);
+    problem.limits.keep_out = vec![KeepOut {
+        name: "forearm off the mast".into(),
+        first: forearm,
+        second: mast,
+    }];
+    problem.mesh.max_iterations = 25;
+    let plan = solve(&problem);
+    assert_eq!(plan.status, Status::Solved, "{:?}", plan.warnings);
+    let nearest = joints(&plan).into_iter().map(|q| {
+        let elbow = [0.156 + 0.506 * q[0].cos(), 0.506 * q[0].sin()];
+        let (x, y) = tip(q);
+        let along = [x - elbow[0], y - elbow[1]];
+        let to_mast = [0.75 - elbow[0], -elbow[1]];
+        let place = (along[0] * to_mast[0] + along[1] * to_mast[1]) / 0.506_f64.powi(2);
+        let place = place.clamp(0.0, 1.0);
+        (to_mast[0] - place * along[0]).hypot(to_mast[1] - place * along[1])
+    });
+    let nearest = nearest.fold(f64::INFINITY, f64::min);
+    assert!(nearest > 0.08 - 1e-3, "{nearest}");
 }

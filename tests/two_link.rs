@@ -127,6 +127,8 @@ fn both_forms_of_the_dynamics_plan_the_same() {
             problem.limits.base_attitude = spatial.limits.base_attitude;
             problem.limits.final_base_attitude = spatial.limits.final_base_attitude;
             problem.limits.base_rate = spatial.limits.base_rate;
+            problem.limits.base_position = spatial.limits.base_position;
+            problem.cost.base_position = spatial.cost.base_position;
             problem.task.initial_momentum = spatial.task.initial_momentum;
         })
         .unwrap();

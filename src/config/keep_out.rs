@@ -10,42 +10,96 @@ use nalgebra::Vector3;
 
 /// The array of pairs.
 pub(super) fn read(item: &Item<'_>, robot: &Robot) -> Result<Vec<KeepOut>, ConfigError> {
-    let expected = "tables [[limits.keep_out]], each with sphere and from";
-    let pairs = item
+    let expected = "tables [[limits.keep_out]], each with sphere, capsule or collision, and from";
+    let entries = item
         .as_elements()
         .ok_or_else(|| item.unexpected(expected))?;
-    pairs.iter().map(|pair| one(pair, robot)).collect()
+    let mut found = Vec::new();
+    for entry in &entries {
+        found.extend(pairs(entry, robot)?);
+    }
+    Ok(found)
 }
 
-fn one(item: &Item<'_>, robot: &Robot) -> Result<KeepOut, ConfigError> {
-    let section = item.section(&["name", "sphere", "capsule", "from"])?;
-    let expected = "a table with body, center and radius, or capsule";
-    let (first, carrier) = match (section.get("capsule"), section.get("sphere")) {
-        (Some(item), None) => capsule(item, robot)?,
-        (Some(item), Some(_)) => {
-            return Err(item.error("sphere as well", "either sphere or capsule"));
+/// The pairs of one entry: one, or every shape of a body with every shape of the other.
+fn pairs(item: &Item<'_>, robot: &Robot) -> Result<Vec<KeepOut>, ConfigError> {
+    let section = item.section(&["name", "sphere", "capsule", "collision", "from"])?;
+    let given: Vec<&Item<'_>> = ["sphere", "capsule", "collision"]
+        .iter()
+        .filter_map(|key| section.get(key))
+        .collect();
+    let (firsts, carrier) = match given[..] {
+        [item] if item.name == "collision" => collisions(item, robot)?,
+        [item] if item.name == "capsule" => one(capsule(item, robot)?),
+        [item] => one(sphere(item, robot)?),
+        [] => {
+            let expected = "a table with body, center and radius; or capsule, or collision";
+            return Err(section.missing("sphere", expected));
         }
-        (None, _) => sphere(section.require("sphere", expected)?, robot)?,
+        [_, second, ..] => {
+            let expected = "one of sphere, capsule and collision";
+            return Err(second.error("more than one of them", expected));
+        }
     };
     let expected = "a table with body, center and radius, with body, ends and radius for a \
-                    capsule, or with body, center and half for a box";
+                    capsule, with body, center and half for a box, or with collision";
     let from = section.require("from", expected)?;
-    let (second, _) = if has(from, "half") {
-        cuboid(from, robot)?
+    let (seconds, _) = if has(from, "collision") {
+        let name = from.section(&["collision"])?;
+        collisions(name.require("collision", BODY)?, robot)?
+    } else if has(from, "half") {
+        one(cuboid(from, robot)?)
     } else if has(from, "ends") {
-        capsule(from, robot)?
+        one(capsule(from, robot)?)
     } else {
-        sphere(from, robot)?
+        one(sphere(from, robot)?)
     };
     let name = match section.get("name") {
         Some(item) => item.text("a string")?.into(),
         None => format!("clearance of {carrier}"),
     };
-    Ok(KeepOut {
-        name,
-        first,
-        second,
-    })
+    let several = firsts.len() * seconds.len() > 1;
+    let mut found = Vec::new();
+    for first in &firsts {
+        for second in &seconds {
+            if first.is_box() && second.is_box() {
+                let expected = "one of both as spheres or capsules, for two boxes cannot be \
+                                measured against each other";
+                return Err(from.error("a box against a box", expected));
+            }
+            let number = found.len() + 1;
+            found.push(KeepOut {
+                name: match several {
+                    true => format!("{name}, {number}"),
+                    false => name.clone(),
+                },
+                first: first.clone(),
+                second: second.clone(),
+            });
+        }
+    }
+    Ok(found)
+}
+
+/// A single solid.
+fn one((solid, name): Named<'_>) -> (Vec<Solid>, &str) {
+    (vec![solid], name)
+}
+
+/// The shapes that a URDF gives for the body that `item` names.
+fn collisions<'a>(item: &Item<'a>, robot: &Robot) -> Result<(Vec<Solid>, &'a str), ConfigError> {
+    let (joint, placement) = find(item, robot)?;
+    let name = item.text(BODY)?;
+    let shapes = robot.collisions(name)?;
+    if shapes.is_empty() {
+        let expected = "a body with <collision> elements in a URDF, or a sphere or a capsule here";
+        return Err(item.error(quoted(name), expected));
+    }
+    let placed = shapes.iter().map(|shape| Solid {
+        joint,
+        shape: shape.placed(&placement),
+    });
+    Ok((placed.collect(), name))
 }
 
 /// Whether it is a table with that key.

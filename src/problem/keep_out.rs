@@ -1,5 +1,6 @@
 //! Pairs of solids that are kept apart along the path.
 
+use crate::dynamics::Placement;
 use nalgebra::{Matrix3, Vector3};
 use std::fmt;
 
@@ -60,6 +61,32 @@ impl Shape {
             (Vector3::from(*center) + rotation * from_center).into()
         };
         (0..8).map(corner).collect()
+    }
+
+    /// The same in another frame, in which its own has the pose `placement`.
+    pub fn placed(&self, placement: &Placement) -> Self {
+        let moved = |point: [f64; 3]| {
+            (placement.rotation * Vector3::from(point) + placement.translation).into()
+        };
+        match self {
+            Self::Sphere { center, radius } => Self::Sphere {
+                center: moved(*center),
+                radius: *radius,
+            },
+            Self::Capsule { ends, radius } => Self::Capsule {
+                ends: ends.map(moved),
+                radius: *radius,
+            },
+            Self::Box {
+                center,
+                rotation,
+                half,
+            } => Self::Box {
+                center: moved(*center),
+                rotation: placement.rotation * rotation,
+                half: *half,
+            },
+        }
     }
 
     /// Its key in the problem file where it stands first in a pair.
@@ -167,7 +194,8 @@ impl Solid {
         Self { joint, shape }
     }
 
-    pub(super) fn is_box(&self) -> bool {
+    /// Whether it is a box.
+    pub fn is_box(&self) -> bool {
         matches!(self.shape, Shape::Box { .. })
     }
 

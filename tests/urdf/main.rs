@@ -3,6 +3,8 @@
 #[path = "../program/mod.rs"]
 mod program;
 
+mod collisions;
+mod collisions;
 mod exported;
 mod refused_files;
 mod refused_joints;

@@ -2,6 +2,7 @@
 
 use crate::config::{ConfigError, Place};
 use crate::dynamics::{Body, Inertia, Joint, JointKind, Model, ModelError, Placement};
+use crate::problem::Shape;
 use nalgebra::Rotation3;
 
 /// A joint as its file describes it.
@@ -55,6 +56,9 @@ pub(super) struct Description {
     /// Bodies that have become part of others.
     pub frames: Vec<Frame>,
     pub end_effector: Option<(Option<usize>, Placement)>,
+    /// What bodies fill by their names, in their own frames; an error for a part that is no shape
+    /// that is known.
+    pub collisions: Vec<(String, Vec<Result<Shape, ConfigError>>)>,
 }
 
 impl Description {
@@ -66,7 +70,14 @@ impl Description {
             joints: Vec::new(),
             frames: Vec::new(),
             end_effector: None,
+            collisions: Vec::new(),
         }
+    }
+
+    /// The shapes of the body `name` in its own frame; none where its file gives none.
+    pub(super) fn collisions(&self, name: &str) -> &[Result<Shape, ConfigError>] {
+        let of_that_name = self.collisions.iter().find(|(body, _)| body == name);
+        of_that_name.map_or(&[], |(_, shapes)| shapes)
     }
 
     /// Names of the joints that can move.

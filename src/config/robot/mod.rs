@@ -10,7 +10,7 @@ use super::files::Files;
 use super::item::{Item, hint};
 use super::{ConfigError, Place};
 use crate::dynamics::{Inertia, Model, ModelError, Placement};
-use crate::problem::Problem;
+use crate::problem::{Problem, Shape};
 use description::{Description, Entry};
 use std::path::Path;
 
@@ -72,6 +72,14 @@ impl Robot {
             None if name == "base" => Some((None, Placement::identity())),
             found => found,
         }
+    }
+
+    /// The shapes of the body `name` in its own frame, as its `<collision>` elements give them.
+    ///
+    /// # Errors
+    /// That of the first element that is no box, cylinder or sphere.
+    pub(super) fn collisions(&self, name: &str) -> Result<Vec<Shape>, ConfigError> {
+        self.description.collisions(name).iter().cloned().collect()
     }
 
     /// Names of all bodies, those welded to others included.

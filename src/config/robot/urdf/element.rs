@@ -116,6 +116,17 @@ impl<'a, 'input> Element<'a, 'input> {
         }
     }
 
+    /// All its children of that tag.
+    pub(super) fn children(&self, tag: &str) -> Vec<Self> {
+        let path = format!("{} <{tag}>", self.path);
+        let of = |node| Self {
+            source: self.source,
+            node,
+            path: path.clone(),
+        };
+        children(self.node, tag).map(of).collect()
+    }
+
     /// Its child of that tag, which must be there.
     pub(super) fn require(&self, tag: &str, expected: &str) -> Result<Self, ConfigError> {
         self.child(tag)?.ok_or_else(|| ConfigError::Missing {

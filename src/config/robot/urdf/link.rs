@@ -1,9 +1,10 @@
-//! `<link>`: a name and its `<inertial>`; what it looks like is not read.
+//! `<link>`: a name, its `<inertial>` and what it fills; what it looks like is not read.
 
 use super::element::Element;
-use super::origin;
+use super::{collision, origin};
 use crate::config::{ConfigError, Place};
 use crate::dynamics::{Body, Inertia};
+use crate::problem::Shape;
 use nalgebra::{Matrix3, Vector3};
 
 /// A link with its mass properties in its own frame.
@@ -11,6 +12,8 @@ use nalgebra::{Matrix3, Vector3};
 pub(super) struct Link {
     pub place: Place,
     pub body: Body,
+    /// What it fills, part by part; an error where a part is none of the shapes that are read.
+    pub collisions: Vec<Result<Shape, ConfigError>>,
 }
 
 /// Reads a link; one without `<inertial>` is massless.
@@ -20,9 +23,11 @@ pub(super) fn read(element: &Element<'_, '_>) -> Result<Link, ConfigError> {
         Some(inertial) => inertia(&inertial)?,
         None => Inertia::massless(),
     };
+    let parts = element.children("collision");
     Ok(Link {
         place: element.place(),
         body: Body { name, inertia },
+        collisions: parts.iter().map(collision::read).collect(),
     })
 }
 

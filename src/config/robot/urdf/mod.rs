@@ -1,5 +1,6 @@
 //! The robot file in URDF; docs/robot-file.md says what is read and what is refused.
 
+mod collision;
 mod element;
 mod joint;
 mod link;
@@ -99,10 +100,15 @@ fn origin(element: &Element<'_, '_>) -> Result<Placement, ConfigError> {
 /// The description: joints that move, the links behind fixed ones part of what carries them.
 fn assemble(name: &str, links: Vec<Link>, joints: Vec<joint::Joint>, tree: &Tree) -> Description {
     let order = tree.depth_first();
+    let collisions = links.iter().filter(|link| !link.collisions.is_empty());
+    let collisions: Vec<_> = collisions
+        .map(|link| (link.body.name.clone(), link.collisions.clone()))
+        .collect();
     let mut bodies: Vec<Option<Body>> = links.into_iter().map(|link| Some(link.body)).collect();
     let mut joints: Vec<Option<joint::Joint>> = joints.into_iter().map(Some).collect();
     let mut take = |link: usize| bodies[link].take().expect("every link is reached once");
     let mut robot = Description::new(name, take(tree.root));
+    robot.collisions = collisions;
     // Where each link's frame is: the joint whose body carries it, and its pose there.
     let mut frames = vec![(None, Placement::identity()); tree.children.len()];
     let mut parents = vec![tree.root; joints.len()];
