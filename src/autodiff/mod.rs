@@ -5,6 +5,8 @@
 //! blocks of second derivatives. Derivatives are exact to rounding: no step size is involved.
 //! [`SparseDerivatives`] sweeps a [`Function`] so that only its nonzeros are computed; which those
 //! are, [`Sparsity`] finds by one evaluation with [`Trace`].
+//!
+//! Derived in docs/algorithms.md#dual-numbers and docs/algorithms.md#sparsity.
 
 mod dependence;
 mod dual;

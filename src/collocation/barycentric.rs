@@ -1,4 +1,6 @@
 //! Barycentric Lagrange interpolation.
+//!
+//! Derived in docs/algorithms.md#barycentric-interpolation.
 
 /// Lagrange interpolation through fixed nodes in barycentric form.
 ///

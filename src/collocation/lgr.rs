@@ -1,4 +1,6 @@
 //! Legendre-Gauss-Radau points, quadrature weights and differentiation matrix.
+//!
+//! Derived in docs/algorithms.md#lgr-rule.
 
 use super::Barycentric;
 use std::f64::consts::PI;

@@ -1,4 +1,6 @@
 //! The reduced Coriolis force Cθ̇ of eq. (6) by one recursive Newton-Euler pass.
+//!
+//! Derived in docs/algorithms.md#coriolis-force.
 
 use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};

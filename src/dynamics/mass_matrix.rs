@@ -1,4 +1,6 @@
 //! The reduced inertia matrix H of eq. (6).
+//!
+//! Derived in docs/algorithms.md#reduced-inertia.
 
 use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};

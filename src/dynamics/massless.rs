@@ -1,4 +1,6 @@
 //! Massless joints: those that move without moving any mass, where bodies lack mass or size.
+//!
+//! Derived in docs/algorithms.md#massless-bodies.
 
 use super::algebra::Spatial;
 use super::{Body, Data, Joint, Tree};

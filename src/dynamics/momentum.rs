@@ -1,4 +1,6 @@
 //! Composite rigid bodies and momentum: how joint rates turn the base, eq. (2) and (5).
+//!
+//! Derived in docs/algorithms.md#momentum-and-base-rate.
 
 use super::algebra::{Algebra, Vector};
 use super::{Data, JointKind, Tree};

@@ -1,4 +1,6 @@
 //! Finds out whether all motion of a robot stays in one plane.
+//!
+//! Derived in docs/algorithms.md#planar-motion.
 
 use super::{Body, Inertia, Joint, JointKind};
 use nalgebra::{Matrix3, Vector3};

@@ -1,4 +1,6 @@
 //! The error estimate (28): defect of the dynamics between collocation points.
+//!
+//! Derived in docs/algorithms.md#midpoint-error.
 
 use crate::largest::{largest, raise};
 use crate::ocp::{Ocp, Point};

@@ -1,4 +1,6 @@
 //! A second error estimate, of the states themselves instead of their derivatives.
+//!
+//! Derived in docs/algorithms.md#quadrature-error.
 
 use crate::collocation::Rule;
 use crate::largest::raise;

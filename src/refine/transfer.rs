@@ -1,4 +1,6 @@
 //! Carries a solution, primal and dual, from one mesh to another.
+//!
+//! Derived in docs/algorithms.md#transfer-between-meshes.
 
 use crate::collocation::Mesh;
 use crate::nlp::Iterate;

@@ -1,4 +1,6 @@
 //! How far a trajectory leaves its bounds between the nodes, where nothing holds it.
+//!
+//! Derived in docs/algorithms.md#bounds-between-the-nodes.
 
 use crate::ocp::{Interval, Ocp, Point, Quantity};
 use crate::transcription::Discretization;

@@ -1,5 +1,7 @@
 //! Radau transcription: an optimal control problem on a mesh becomes a sparse programme,
 //! eq. (22) to (27).
+//!
+//! Derived in docs/algorithms.md#transcription.
 
 mod discretization;
 mod evaluation;

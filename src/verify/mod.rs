@@ -13,6 +13,8 @@
 //! | `quaternion` | orientations in the integrated state |
 //! | `pass` | one integration over all segments, compared with the plan at its nodes |
 //! | `verification`, `error` | what was found, or why not |
+//!
+//! Derived in docs/algorithms.md#verification.
 
 pub mod bodies;
 mod error;

@@ -1,5 +1,7 @@
 //! How the base's orientation is described: one angle in the plane; roll-pitch-yaw, a unit
 //! quaternion or modified Rodrigues parameters in space.
+//!
+//! Derived in docs/algorithms.md#attitude.
 
 mod description;
 mod kind;

@@ -1,4 +1,6 @@
 //! The rotation angle as a smooth function.
+//!
+//! Derived in docs/algorithms.md#rotation-angle.
 
 use crate::autodiff::Scalar;
 use nalgebra::Vector3;

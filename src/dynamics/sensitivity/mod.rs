@@ -14,6 +14,9 @@
 //! and all it carries stay as they are, and only the step from a body to the next adds a term, to
 //! the one direction that is its joint's position: −S × motion outwards, S ×* force inwards. So all
 //! positions stay plain numbers, and dual numbers are multiplied by them.
+//!
+//! Derived in docs/algorithms.md#first-derivatives-of-the-free-motion and
+//! docs/algorithms.md#second-derivatives-of-the-free-motion.
 
 mod configuration;
 mod first;

@@ -3,6 +3,8 @@
 //! The handles that Ipopt keeps are boxes of this file. There is no state outside them but what each
 //! thread counts of its solve. No panic crosses C: it is caught, and Ipopt is told that the
 //! factorisation failed.
+//!
+//! Derived in docs/algorithms.md#ma97-interface.
 
 #![expect(
     unsafe_code,

@@ -4,6 +4,8 @@
 //! In a transcription the variables come point after point, so that their order is that of time;
 //! multipliers and slacks are placed where the variables of their rows are. Separators are taken
 //! where they are smallest: for a transcription, the states at the end of a segment.
+//!
+//! Derived in docs/algorithms.md#cut-along-the-time-axis.
 
 use super::Pattern;
 use super::graph::Graph;

@@ -21,6 +21,8 @@
 //! | `zero_pivots` | which columns are rounding error |
 //! | `update`, `simd` | dense kernels on vectors |
 //! | `solve` | forward and backward substitution |
+//!
+//! Derived in docs/algorithms.md#kkt-systems.
 
 mod amalgamation;
 mod dissection;

@@ -4,6 +4,8 @@
 //! as in Amestoy, Davis and Duff (doi:10.1137/S0895479894278952), on weighted nodes: a node is one
 //! unknown, or two that are matched to be a pivot of order two. Constrained as CAMD is: nodes of an
 //! earlier stage are eliminated first.
+//!
+//! Derived in docs/algorithms.md#ordering.
 
 use super::graph::Graph;
 use super::lists::Lists;

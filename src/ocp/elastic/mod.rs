@@ -5,6 +5,8 @@
 //! | `limits` | which bounds give way, and what the problem is without them |
 //! | `problem` | the elastic problem as an [`Ocp`](super::Ocp) |
 //! | `derivatives` | its derivatives from those of the problem inside |
+//!
+//! Derived in docs/algorithms.md#elastic-diagnosis.
 
 mod derivatives;
 mod limits;

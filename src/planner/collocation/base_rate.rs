@@ -1,4 +1,6 @@
 //! The integral of the base rate as the only cost, after Schulz: by the same machinery as A-RPM.
+//!
+//! Derived in docs/algorithms.md#base-rate-alone.
 
 use super::Planner;
 use crate::nlp::Control;

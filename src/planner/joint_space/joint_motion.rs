@@ -1,4 +1,6 @@
 //! From a motion of the joints alone to a complete plan: the base follows by momentum.
+//!
+//! Derived in docs/algorithms.md#base-motion-along-a-joint-motion.
 
 use crate::collocation::{Mesh, MeshError};
 use crate::dynamics::Data;

@@ -5,6 +5,8 @@
 //! for the other, at 4Δθ/t_f². Where the rate reached, 2Δθ/t_f, is above its bound v, the joint
 //! cruises at v in between and accelerates at v²/(v t_f − Δθ), which is again the least. All
 //! joints take the same time.
+//!
+//! Derived in docs/algorithms.md#matpm.
 
 use super::joint_motion::{JointMotion, assemble, duration, rest_to_rest};
 use crate::ocp::Interval;

@@ -12,6 +12,8 @@
 //!   max(`points`, ⌈N/n⌉) each. A cut must not take away the accuracy that is there.
 //! - A segment that is accurate but exceeds a bound between its nodes is cut in two at the place of
 //!   the largest violation, which becomes a node.
+//!
+//! Derived in docs/algorithms.md#adaptive-law.
 
 use super::raise::{decades, raised};
 use crate::collocation::{Mesh, MeshError};

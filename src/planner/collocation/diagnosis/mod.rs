@@ -1,4 +1,6 @@
 //! Why a problem is infeasible: which limits cannot hold, and the smallest that can.
+//!
+//! Derived in docs/algorithms.md#elastic-diagnosis.
 
 mod findings;
 mod search;

@@ -16,6 +16,8 @@
 //! arrive at rest in the steps that follow, within its limits on rate and half those on control;
 //! the other half is for what the Coriolis term does in the meantime. Where that is not enough the
 //! whole control counts. What a joint then cannot reach it misses, and the plan says so.
+//!
+//! Derived in docs/algorithms.md#acceleration-qp.
 
 mod arrival;
 mod base;

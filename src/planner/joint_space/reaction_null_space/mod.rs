@@ -7,6 +7,8 @@
 //! the null space, dθ/ds ∝ P(θ)(θ_goal − θ), until nothing is left of it. Where the null space
 //! has one dimension there is no choice but the line through the start, and the path goes to its
 //! point nearest to the goal. The time law of every smooth leg is quintic.
+//!
+//! Derived in docs/algorithms.md#reaction-null-space.
 
 mod coupling;
 mod path;

@@ -3,6 +3,8 @@
 //! It is measured in the frame of the second solid, which is at rest there; the points of the
 //! first that it depends on have closed-form derivatives by the joint positions, and distances
 //! derivatives by dual numbers.
+//!
+//! Derived in docs/algorithms.md#distance-of-solids.
 
 mod distance;
 mod relative;
