@@ -4,7 +4,6 @@
 mod program;
 
 mod collisions;
-mod collisions;
 mod exported;
 mod refused_files;
 mod refused_joints;
