@@ -52,8 +52,7 @@ impl Plan {
         let (joint, base) = (found.max_joint_drift, found.max_base_attitude_drift);
         let helps = "a smaller mesh.tolerance brings it down; a joint that hardly any mass resists \
                      magnifies every error";
-        // Written so that NaN is too far.
-        let too_far = |drift: f64, room: f64| !(drift <= room);
+        let too_far = |drift: f64, room: f64| drift.is_nan() || drift > room;
         if too_far(joint, joint_room) {
             return Some(format!(
                 "re-integrated under its control, the motion leaves the plan: joints drift by {}, \

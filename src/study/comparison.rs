@@ -42,11 +42,12 @@ impl Comparison {
         let mut found = Self::default();
         let mut in_joints = Ok(problem.clone());
         for method in Method::ALL {
-            if found.entries.len() == 1 && problem.task.end_effector.is_some() {
-                if let Some(joints) = joints_reached(&found.entries[0]) {
-                    in_joints = in_joint_space(problem, joints);
-                    found.notes.push(in_joint_space_note());
-                }
+            if found.entries.len() == 1
+                && problem.task.end_effector.is_some()
+                && let Some(joints) = joints_reached(&found.entries[0])
+            {
+                in_joints = in_joint_space(problem, joints);
+                found.notes.push(in_joint_space_note());
             }
             let task = if method.optimises() {
                 Ok(problem)

@@ -27,7 +27,7 @@ pub trait Vector<S: Scalar>:
     #[inline(always)]
     fn scaled(mut self, factor: S) -> Self {
         for c in self.components_mut() {
-            *c = *c * factor;
+            *c *= factor;
         }
         self
     }

@@ -41,7 +41,7 @@ pub(crate) enum PathBlock<Sp: Space> {
     Torque(TorqueRows),
     RotationAngle(RotationAngleRow),
     BasePosition(BasePositionRows),
-    KeepOut(KeepOutRow<Sp>),
+    KeepOut(Box<KeepOutRow<Sp>>),
 }
 
 macro_rules! each_path {
@@ -51,7 +51,10 @@ macro_rules! each_path {
             PathBlock::Torque($rows) => $do,
             PathBlock::RotationAngle($rows) => $do,
             PathBlock::BasePosition($rows) => $do,
-            PathBlock::KeepOut($rows) => $do,
+            PathBlock::KeepOut(boxed) => {
+                let $rows = boxed.as_ref();
+                $do
+            }
         }
     };
 }
@@ -63,7 +66,7 @@ pub(crate) fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<PathB
     blocks.extend(TorqueRows::new(problem).map(PathBlock::Torque));
     blocks.extend(RotationAngleRow::path(problem, plant).map(PathBlock::RotationAngle));
     blocks.extend(BasePositionRows::new(problem).map(PathBlock::BasePosition));
-    blocks.extend(KeepOutRow::all(problem, plant).map(PathBlock::KeepOut));
+    blocks.extend(KeepOutRow::all(problem, plant).map(|row| PathBlock::KeepOut(Box::new(row))));
     blocks
 }
 
@@ -73,7 +76,7 @@ pub(crate) enum EndBlock<Sp: Space> {
     EndEffector(EndEffectorRows<Sp>),
     RotationAngle(RotationAngleRow),
     BasePosition(BasePositionRows),
-    KeepOut(KeepOutRow<Sp>),
+    KeepOut(Box<KeepOutRow<Sp>>),
 }
 
 macro_rules! each_end {
@@ -82,7 +85,10 @@ macro_rules! each_end {
             EndBlock::EndEffector($rows) => $do,
             EndBlock::RotationAngle($rows) => $do,
             EndBlock::BasePosition($rows) => $do,
-            EndBlock::KeepOut($rows) => $do,
+            EndBlock::KeepOut(boxed) => {
+                let $rows = boxed.as_ref();
+                $do
+            }
         }
     };
 }
@@ -93,7 +99,7 @@ pub(crate) fn end<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<EndBlo
     blocks.extend(EndEffectorRows::at_end(problem, plant).map(EndBlock::EndEffector));
     blocks.extend(RotationAngleRow::ends(problem, plant).map(EndBlock::RotationAngle));
     blocks.extend(BasePositionRows::new(problem).map(EndBlock::BasePosition));
-    blocks.extend(KeepOutRow::all(problem, plant).map(EndBlock::KeepOut));
+    blocks.extend(KeepOutRow::all(problem, plant).map(|row| EndBlock::KeepOut(Box::new(row))));
     blocks
 }
 

@@ -56,10 +56,10 @@ impl<Sp: Space> KeepOutRow<Sp> {
         let radius = radius + rounding;
         let size = radius + half.into_iter().fold(f64::INFINITY, f64::min);
         let mut core = Core::new(half, size);
-        if let Some((axis, height)) = points.across_the_plane() {
-            if height <= half[axis] {
-                core = core.closed_along(axis);
-            }
+        if let Some((axis, height)) = points.across_the_plane()
+            && height <= half[axis]
+        {
+            core = core.closed_along(axis);
         }
         let id = BoundId::new(LimitId::KeepOut, Component::Pair(index));
         let bounds = Interval::new(0.0, f64::INFINITY);
