@@ -176,7 +176,7 @@ fn the_arm_may_touch_a_face() {
 fn what_is_above_the_plane_is_not_in_the_way() {
     let mut problem = swing().into_builder();
     let free = solve(&problem);
-    for (height, in_the_way) in [(0.35, false), (0.2, true)] {
+    for (height, in_the_way) in [(0.35, false), (0.1, true)] {
         let above = Solid::sphere(None, [MAST[0], MAST[1], height], 0.25);
         problem.limits.keep_out = off("above", 0.05, above);
         let plan = solve(&problem);
@@ -255,7 +255,7 @@ fn a_pair_may_have_any_name() {
 #[test]
 fn a_link_is_kept_off_along_its_whole_length() {
     let mut problem = swing().into_builder();
-    let mast = Solid::sphere(None, [0.75, 0.0, 0.0], 0.05);
+    let mast = Solid::sphere(None, [MAST[0], MAST[1], 0.0], 0.05);
     let forearm = Solid::capsule(Some(1), [[0.0; 3], [0.506, 0.0, 0.0]], 0.03);
     problem.limits.keep_out = vec![KeepOut {
         name: "forearm off the mast".into(),
@@ -269,7 +269,7 @@ fn a_link_is_kept_off_along_its_whole_length() {
         let elbow = [0.156 + 0.506 * q[0].cos(), 0.506 * q[0].sin()];
         let (x, y) = tip(q);
         let along = [x - elbow[0], y - elbow[1]];
-        let to_mast = [0.75 - elbow[0], -elbow[1]];
+        let to_mast = [MAST[0] - elbow[0], MAST[1] - elbow[1]];
         let place = (along[0] * to_mast[0] + along[1] * to_mast[1]) / 0.506_f64.powi(2);
         let place = place.clamp(0.0, 1.0);
         (to_mast[0] - place * along[0]).hypot(to_mast[1] - place * along[1])

@@ -77,7 +77,8 @@ fn pairs_kept_apart() {
                     pair("off a capsule", Solid::capsule(None, [[0.0; 3], at], 0.2)),
                     KeepOut {
                         name: "a box in front".into(),
-                        first: Solid::cuboid(Some(last), center, [0.1, 0.2, 0.3]),
+                        // At the height of the point, so that the way to it is in the plane.
+                        first: Solid::cuboid(Some(last), [0.15, -0.25, -0.2], [0.1, 0.2, 0.3]),
                         second: Solid::sphere(None, at, 0.0),
                     },
                 ];
