@@ -22,6 +22,7 @@ pub mod verify;
 
 // Not part of the library's interface: what the program and its tests need to reach.
 #[doc(hidden)]
+#[allow(rustdoc::invalid_html_tags)] // help texts name places by <problem name>
 pub mod cli;
 #[doc(hidden)]
 pub mod plot;
