@@ -132,6 +132,8 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
                     "limits exceeded by {:.1e} of their size",
                     last.max_violation
                 )
+            } else if last.max_violation.is_nan() {
+                "a limit is not a number".into()
             } else {
                 "no limit is exceeded".into()
             },
