@@ -3,17 +3,12 @@
 //! Written without branches on values: largest, smallest and absolute values are those of
 //! [`Scalar`], so that all a distance may depend on can be found from this code.
 
-use crate::autodiff::{Dual, Scalar};
+use crate::autodiff::Scalar;
 use std::array::from_fn;
 
 /// Length under square roots, relative to the size of the solids: keeps derivatives finite where
 /// centres coincide, and adds less than rounding to a distance at contact.
 const GUARD: f64 = 1e-7;
-
-/// Least distance from an end of a line at which its nearest place is looked for, as a fraction.
-const CLOSEST: f64 = 1e-9;
-/// Halvings in that search: to rounding.
-const BISECTIONS: usize = 50;
 
 /// A solid at rest without the radius around it: a box, or a line or a point, which are boxes
 /// without some of their edges. Its centre is the origin, its edges are parallel to the axes.
@@ -61,60 +56,18 @@ impl Core {
         deepest + (square - beyond.square()) / (root + beyond)
     }
 
-    /// Distance of the line between two points, negative where it is inside.
-    ///
-    /// The distance is convex along the line. Its least place is found by bisection, and carries
-    /// derivatives by one step of Newton's method: at a minimum those of first order are all that
-    /// second derivatives of the distance need. Inside a box the place is held.
-    pub fn to_segment<S: Scalar>(&self, a: &[S; 3], b: &[S; 3]) -> S {
-        let place = self.nearest(&a.map(|c| c.value()), &b.map(|c| c.value()));
-        let along: [S; 3] = from_fn(|i| b[i] - a[i]);
-        let at = |place: S| -> [S; 3] { from_fn(|i| a[i] + along[i] * place) };
-        let held = S::constant(place);
-        if place <= CLOSEST || place >= 1.0 - CLOSEST {
-            return self.to_point(&at(held));
-        }
-        // Half the slope of the squared distance, and the slope of that.
-        let (mut slope, mut bend) = (S::zero(), 0.0);
-        for (i, c) in at(held).into_iter().enumerate() {
-            let outside = (c.abs() - self.half[i]).max(S::zero());
-            if outside.value() > 0.0 {
-                slope += along[i] * outside * c.value().signum();
-                bend += along[i].value().powi(2);
-            }
-        }
-        let step = if bend > 0.0 { 1.0 / bend } else { 0.0 };
-        self.to_point(&at(held - slope * step))
+    /// Half of the edge along axis `i`, m.
+    pub fn half(&self, i: usize) -> f64 {
+        self.half[i]
     }
 
-    /// Where the line from `a` to `b` is nearest, as a fraction of its length.
-    ///
-    /// Never quite at an end, so that both ends are seen to count.
-    fn nearest(&self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
-        let slope = |place: f64| {
-            let place = Dual::<1>::seeded(place, 0);
-            let at = from_fn(|i| place * (b[i] - a[i]) + a[i]);
-            self.to_point(&at).gradient[0]
-        };
-        let [mut low, mut high] = [CLOSEST, 1.0 - CLOSEST];
-        if slope(low) >= 0.0 {
-            return low;
-        }
-        if slope(high) <= 0.0 {
-            return high;
-        }
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            if slope(middle) < 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        0.5 * (low + high)
+    /// The same, infinite where that axis leads nowhere.
+    pub fn exit(&self, i: usize) -> f64 {
+        self.exit[i]
     }
 
-    fn has_inside(&self) -> bool {
+    /// Whether it is a box.
+    pub fn has_inside(&self) -> bool {
         self.half.iter().all(|half| *half > 0.0)
     }
 }
@@ -208,61 +161,6 @@ mod tests {
                 }
             }
             assert!(finite(core.closed_along(2).to_point(&seeded([0.0; 3]))));
-        }
-    }
-
-    /// Solids and random lines: the least of many places along each.
-    #[test]
-    fn the_distance_of_a_line_is_that_of_its_nearest_point() {
-        let mut random = fastrand::Rng::with_seed(3);
-        let mut draw = || -> [f64; 3] { from_fn(|_| 1.6 * random.f64() - 0.8) };
-        for half in [HALF, [0.0, 0.0, 0.3], [0.0; 3]] {
-            let core = Core::new(half, 0.2);
-            for _ in 0..200 {
-                let (a, b) = (draw(), draw());
-                let at = |place: f64| from_fn(|i| a[i] + place * (b[i] - a[i]));
-                let places = (0..=4000).map(|k| core.to_point(&at(f64::from(k) / 4000.0)));
-                let sampled = places.fold(f64::INFINITY, f64::min);
-                let found = core.to_segment(&a, &b);
-                assert!(found < sampled + 1e-8, "{a:?} {b:?}: {found} {sampled}");
-                assert!(found > sampled - 1e-3, "{a:?} {b:?}: {found} {sampled}");
-            }
-        }
-    }
-
-    /// Two lines at right angles: the distance is that along the third axis, and bends as the
-    /// norm of two coordinates does where the nearest places are held by an end.
-    #[test]
-    fn the_nearest_place_carries_derivatives() {
-        type Both = HyperDual<6, 6>;
-        let line = Core::new([0.0, 0.0, 0.5], 1.0);
-        let (a, b) = ([-1.0, 0.3, 0.1], [1.0, 0.5, 0.2]);
-        let seeded = |point: [f64; 3], first: usize| -> [Both; 3] {
-            from_fn(|i| Both::seeded(point[i], Some(first + i), Some(first + i)))
-        };
-        let found = line.to_segment(&seeded(a, 0), &seeded(b, 3));
-        let value = |change: [f64; 6]| {
-            let a = from_fn(|i| a[i] + change[i]);
-            let b = from_fn(|i| b[i] + change[3 + i]);
-            line.to_segment::<f64>(&a, &b)
-        };
-        let step = 1e-4;
-        for i in 0..6 {
-            for j in 0..6 {
-                let moved = |si: f64, sj: f64| {
-                    let mut change = [0.0; 6];
-                    change[i] += si * step;
-                    change[j] += sj * step;
-                    value(change)
-                };
-                let slope = (moved(0.5, 0.5) - moved(-0.5, -0.5)) / step;
-                let expected = found.rows[i] + found.rows[j];
-                assert_near(slope, expected, 1e-6);
-                let second = (moved(1.0, 1.0) - moved(1.0, -1.0) - moved(-1.0, 1.0)
-                    + moved(-1.0, -1.0))
-                    / (4.0 * step * step);
-                assert_near(second, found.block[i][j], 1e-5);
-            }
         }
     }
 

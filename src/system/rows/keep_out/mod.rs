@@ -8,6 +8,7 @@
 
 mod distance;
 mod relative;
+mod segment;
 
 use super::block::{EndRows, PathRows};
 use super::row::{BoundId, Component, Row};
