@@ -5,7 +5,7 @@ use super::document::quoted;
 use super::item::{Item, Section, hint};
 use super::robot::Robot;
 use crate::dynamics::Placement;
-use crate::problem::{KeepOut, Shape, Solid};
+use crate::problem::{KeepOut, ProblemError, Shape, Solid, check_pair};
 use nalgebra::Vector3;
 
 /// The array of pairs.
@@ -68,17 +68,31 @@ fn pairs(item: &Item<'_>, robot: &Robot) -> Result<Vec<KeepOut>, ConfigError> {
                 return Err(from.error("a box against a box", expected));
             }
             let number = found.len() + 1;
-            found.push(KeepOut {
+            let pair = KeepOut {
                 name: match several {
                     true => format!("{name}, {number}"),
                     false => name.clone(),
                 },
                 first: first.clone(),
                 second: second.clone(),
-            });
+            };
+            // Here, where the entry is known that it comes from.
+            check_pair(&item.key, &pair, usize::MAX).map_err(|error| blame(item, error))?;
+            found.push(pair);
         }
     }
     Ok(found)
+}
+
+/// An error below the entry `item`, with the place of its key.
+fn blame(item: &Item<'_>, error: ProblemError) -> ConfigError {
+    let below = error.key.strip_prefix(&item.key).unwrap_or_default();
+    ConfigError::Value {
+        place: item.node.locate(below.trim_start_matches('.')),
+        key: error.key,
+        found: error.found,
+        expected: error.expected,
+    }
 }
 
 /// A single solid.

@@ -28,3 +28,5 @@ pub use task::Task;
 pub use unit::Unit;
 pub use valid::Problem;
 pub use way_point::{Moment, WayPoint};
+
+pub(crate) use validation::check_pair;

@@ -55,7 +55,7 @@ fn shapes_that_cannot_be_used_are_refused_where_they_are_asked_for() {
     load(&folder(&arm(mesh, UPPER), FILE, 2, ""));
     let asked = complaint(&folder(&arm(mesh, UPPER), FILE, 2, PAIR));
     assert!(
-        asked.ends_with("expected a box, a cylinder or a sphere"),
+        asked.ends_with("link 'hull' <collision>: a mesh; expected a box, a cylinder or a sphere"),
         "{asked}"
     );
     assert!(asked.contains("link 'hull' <collision>"), "{asked}");
@@ -63,4 +63,80 @@ fn shapes_that_cannot_be_used_are_refused_where_they_are_asked_for() {
     assert!(none.contains("limits.keep_out[0].from.collision: \"hull\"; expected a body with"));
     let boxes = complaint(&folder(&arm(HULL, HULL), FILE, 2, PAIR));
     assert!(boxes.contains("a box against a box; expected one of both as spheres or capsules"));
+}
+
+#[test]
+fn what_is_wrong_after_several_pairs_is_told_by_its_own_entry() {
+    let wrong = format!(
+        "{PAIR}\n[[limits.keep_out]]\nsphere = {{ body = \"lower\", radius = -1.0 }}\n\
+         from = {{ collision = \"base\" }}\n"
+    );
+    let folder = folder(&arm(HULL, UPPER), FILE, 2, &wrong);
+    let told = complaint(&folder);
+    let lines = folder.read("case.toml");
+    let line = 1 + lines
+        .lines()
+        .position(|line| line.contains("-1.0"))
+        .unwrap();
+    let expected =
+        "limits.keep_out[1].sphere.radius: -1; expected a finite length, m, zero or above";
+    assert_eq!(told, format!("case.toml:{line}: {expected}"));
+    let same = "\n[[limits.keep_out]]\ncollision = \"upper\"\n\
+                from = { body = \"upper\", radius = 0.1 }\n";
+    let told = complaint(&self::folder(
+        &arm(HULL, UPPER),
+        FILE,
+        2,
+        &format!("{PAIR}{same}"),
+    ));
+    let expected = "limits.keep_out[1].from.body: the same body; expected two different bodies";
+    assert!(told.ends_with(expected), "{told}");
+}
+
+#[test]
+fn sizes_are_finite_and_above_zero() {
+    for (old, new, expected) in [
+        (
+            "radius=\"0.05\"",
+            "radius=\"-0.05\"",
+            "<cylinder> radius: \"-0.05\"; expected a finite length above zero, m",
+        ),
+        (
+            "length=\"0.4\"",
+            "length=\"inf\"",
+            "<cylinder> length: \"inf\"; expected a finite length above zero, m",
+        ),
+        (
+            "size=\"0.4 0.6 0.8\"",
+            "size=\"0.4 0 0.8\"",
+            "<box> size: \"0.4 0 0.8\"; expected 3 finite lengths above zero, m",
+        ),
+    ] {
+        let urdf = edited(&arm(HULL, UPPER), old, new);
+        let told = complaint(&folder(&urdf, FILE, 2, PAIR));
+        assert!(told.ends_with(expected), "{told}");
+        assert!(told.contains("arm.urdf:"), "{told}");
+    }
+}
+
+#[test]
+fn a_link_that_is_part_of_another_keeps_its_shapes() {
+    let tool = "<link name=\"tool0\"><collision><origin xyz=\"0 0 0.1\"/><geometry>\
+                <sphere radius=\"0.03\"/></geometry></collision></link>";
+    let urdf = edited(&arm(HULL, UPPER), "<link name=\"tool0\"/>", tool);
+    let pair = "\n[[limits.keep_out]]\ncollision = \"tool0\"\n\
+                from = { body = \"hull\", radius = 0.2 }\n";
+    let file = load(&folder(&urdf, FILE, 2, pair));
+    let [pair] = &file.problem.limits.keep_out[..] else {
+        panic!("{:?}", file.problem.limits.keep_out);
+    };
+    assert_eq!(
+        (pair.name.as_str(), pair.first.joint),
+        ("clearance of tool0", Some(1))
+    );
+    let Shape::Sphere { center, .. } = pair.first.shape else {
+        panic!("{pair:?}");
+    };
+    // The adapter's z axis is the lower link's x axis.
+    assert_near(&Vector3::from(center), [0.4 + 0.1 + 0.1, 0.0, 0.0]);
 }

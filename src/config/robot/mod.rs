@@ -79,7 +79,11 @@ impl Robot {
     /// # Errors
     /// That of the first element that is no box, cylinder or sphere.
     pub(super) fn collisions(&self, name: &str) -> Result<Vec<Shape>, ConfigError> {
-        self.description.collisions(name).iter().cloned().collect()
+        let of = |name: &str| self.description.collisions(name).iter().cloned().collect();
+        match self.description.body(name) {
+            None if name == "base" => of(&self.description.base.name),
+            _ => of(name),
+        }
     }
 
     /// Names of all bodies, those welded to others included.

@@ -14,7 +14,8 @@ pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     Ok(())
 }
 
-fn pair(key: &str, pair: &KeepOut, joints: usize) -> Checked {
+/// Checks a pair whose key in the problem file is `key`, for a robot with `joints` joints.
+pub(crate) fn pair(key: &str, pair: &KeepOut, joints: usize) -> Checked {
     let of_first = pair.first.shape.key();
     let (first, second) = (&pair.first, &pair.second);
     solid(first, joints, |rest| format!("{key}.{of_first}.{rest}"))?;

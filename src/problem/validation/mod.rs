@@ -9,6 +9,8 @@ mod limits;
 mod task;
 mod way_points;
 
+pub(crate) use keep_out::pair as check_pair;
+
 use super::builder::ProblemBuilder;
 use super::error::ProblemError;
 use checks::error;

@@ -47,5 +47,9 @@ pub(super) fn read(element: &Element<'_, '_>) -> Result<Shape, ConfigError> {
             half,
         });
     }
-    Err(element.error("no such shape: a mesh, say", expected))
+    let found = match geometry.child("mesh")? {
+        Some(_) => "a mesh",
+        None => "none of these shapes",
+    };
+    Err(element.error(found, expected))
 }
