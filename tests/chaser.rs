@@ -72,8 +72,8 @@ fn urdf_and_toml_describe_the_same_robot() {
         assert_eq!((&a.placement, a.axis), (&b.placement, b.axis));
         assert_eq!(a.body, b.body);
     }
-    let (carrier, placement) = urdf.end_effector().unwrap();
-    assert_eq!((*carrier, placement.translation.z), (Some(6), 0.294));
+    let end = urdf.end_effector().unwrap();
+    assert_eq!((end.joint, end.placement.translation.z), (Some(6), 0.294));
 }
 
 #[test]

@@ -10,9 +10,9 @@ const TILE: usize = 4;
 type First = Dual<WIDTH>;
 type Second = HyperDual<TILE, TILE>;
 
-/// A nonzero that a sweep delivers: where it stands in the sweep and in the list of nonzeros.
+/// A nonzero that a sweep finds: where it stands in the list of nonzeros and in the sweep.
 #[derive(Debug, Clone, Copy)]
-struct Delivery {
+struct Entry {
     slot: usize,
     /// Output (first order) or row of the tile (second order).
     row: usize,
@@ -23,24 +23,24 @@ struct Delivery {
 #[derive(Debug)]
 struct Sweep {
     seeds: Vec<usize>,
-    deliveries: Vec<Delivery>,
+    entries: Vec<Entry>,
 }
 
 #[derive(Debug)]
 struct Tile {
     rows: Vec<usize>,
     columns: Vec<usize>,
-    deliveries: Vec<Delivery>,
+    entries: Vec<Entry>,
 }
 
 /// Variables, values and scratch of one number type.
-struct Bench<F: Function, S: Scalar> {
+struct Buffers<F: Function, S: Scalar> {
     scratch: F::Scratch<S>,
     inputs: Vec<S>,
     outputs: Vec<S>,
 }
 
-impl<F: Function, S: Scalar> Bench<F, S> {
+impl<F: Function, S: Scalar> Buffers<F, S> {
     fn new(f: &F) -> Self {
         Self {
             scratch: f.scratch(),
@@ -67,8 +67,8 @@ pub struct SparseDerivatives<F: Function> {
     sweeps: Vec<Sweep>,
     tiles: Vec<Tile>,
     plain: F::Scratch<f64>,
-    first: Bench<F, First>,
-    second: Bench<F, Second>,
+    first: Buffers<F, First>,
+    second: Buffers<F, Second>,
 }
 
 impl<F: Function> std::fmt::Debug for SparseDerivatives<F> {
@@ -94,11 +94,11 @@ impl<F: Function> SparseDerivatives<F> {
             .columns()
             .chunks(WIDTH)
             .map(|seeds| {
-                let mut deliveries = Vec::new();
+                let mut entries = Vec::new();
                 for (row, columns) in sparsity.jacobian.iter().enumerate() {
                     for (k, column) in columns.iter().enumerate() {
                         if let Some(direction) = seeds.iter().position(|seed| seed == column) {
-                            deliveries.push(Delivery {
+                            entries.push(Entry {
                                 slot: starts[row] + k,
                                 row,
                                 direction,
@@ -108,7 +108,7 @@ impl<F: Function> SparseDerivatives<F> {
                 }
                 Sweep {
                     seeds: seeds.to_vec(),
-                    deliveries,
+                    entries,
                 }
             })
             .collect();
@@ -117,8 +117,8 @@ impl<F: Function> SparseDerivatives<F> {
             sweeps,
             tiles: tiles(&sparsity),
             plain: f.scratch(),
-            first: Bench::new(f),
-            second: Bench::new(f),
+            first: Buffers::new(f),
+            second: Buffers::new(f),
             sparsity,
         }
     }
@@ -146,8 +146,8 @@ impl<F: Function> SparseDerivatives<F> {
                 self.first.inputs[seed] = First::seeded(point[seed], direction);
             }
             self.first.run(f);
-            for d in &sweep.deliveries {
-                jacobian[d.slot] = self.first.outputs[d.row].gradient[d.direction];
+            for entry in &sweep.entries {
+                jacobian[entry.slot] = self.first.outputs[entry.row].gradient[entry.direction];
             }
         }
     }
@@ -172,8 +172,8 @@ impl<F: Function> SparseDerivatives<F> {
                     }
                 }
             }
-            for d in &tile.deliveries {
-                hessian[d.slot] = sum[d.row][d.direction];
+            for entry in &tile.entries {
+                hessian[entry.slot] = sum[entry.row][entry.direction];
             }
         }
     }
@@ -188,25 +188,25 @@ fn tiles(sparsity: &Sparsity) -> Vec<Tile> {
     let mut tiles = Vec::new();
     for (b, rows) in blocks.iter().enumerate() {
         for columns in &blocks[..=b] {
-            let deliveries: Vec<Delivery> = sparsity
+            let entries: Vec<Entry> = sparsity
                 .hessian
                 .iter()
                 .enumerate()
                 .filter_map(|(slot, (i, j))| {
                     let row = rows.iter().position(|r| r == i)?;
                     let direction = columns.iter().position(|c| c == j)?;
-                    Some(Delivery {
+                    Some(Entry {
                         slot,
                         row,
                         direction,
                     })
                 })
                 .collect();
-            if !deliveries.is_empty() {
+            if !entries.is_empty() {
                 tiles.push(Tile {
                     rows: rows.to_vec(),
                     columns: columns.to_vec(),
-                    deliveries,
+                    entries,
                 });
             }
         }

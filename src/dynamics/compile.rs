@@ -19,18 +19,18 @@ impl Tree<Planar> {
         let links = joints
             .iter()
             .zip(&poses)
-            .map(|(joint, (rotation, origin))| {
+            .map(|(joint, pose)| {
                 let carrier = joint
                     .parent
-                    .map_or(Vector3::zeros(), |parent| poses[parent].1);
-                let inertia = joint.body.inertia.placed(rotation, &Vector3::zeros());
-                let axis = rotation * joint.axis.as_ref();
+                    .map_or(Vector3::zeros(), |parent| poses[parent].translation);
+                let inertia = joint.body.inertia.placed(&pose.rotation, &Vector3::zeros());
+                let axis = pose.rotation * joint.axis.as_ref();
                 Link {
                     parent: joint.parent,
                     kind: joint.kind,
                     sign: axis.dot(&basis.column(2)).signum(),
                     fixed: Planar::aligned(),
-                    offset: flat(origin - carrier),
+                    offset: flat(pose.translation - carrier),
                     slide: flat(axis),
                     mass: inertia.mass(),
                     center: flat(*inertia.center()),
@@ -43,9 +43,11 @@ impl Tree<Planar> {
             .collect();
         let frames = poses
             .iter()
-            .map(|(rotation, _)| basis.transpose() * rotation)
+            .map(|pose| basis.transpose() * pose.rotation)
             .collect();
-        let heights = poses.iter().map(|(_, origin)| basis.column(2).dot(origin));
+        let heights = poses
+            .iter()
+            .map(|pose| basis.column(2).dot(&pose.translation));
         let base = &base.inertia;
         Self {
             heights: heights.collect(),

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 /// Mass properties that no rigid body has.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum InertiaError {
     /// Mass is zero, negative or not finite.
     #[error("mass is {0} kg, expected a finite number above zero")]

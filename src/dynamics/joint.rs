@@ -5,6 +5,7 @@ use nalgebra::{Unit, Vector3};
 
 /// What a joint lets its body do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum JointKind {
     /// Turn about the axis; position in rad.
     Revolute,
@@ -58,4 +59,13 @@ pub struct Joint {
     pub limits: JointLimits,
     /// The body it moves; its frame is the joint frame, moved by the joint.
     pub body: Body,
+}
+
+/// Where the end effector is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndEffector {
+    /// The joint whose body carries it; `None` for the base.
+    pub joint: Option<usize>,
+    /// Pose of its frame in the body's frame.
+    pub placement: Placement,
 }

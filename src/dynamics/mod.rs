@@ -44,7 +44,7 @@ mod tree;
 
 pub use data::Data;
 pub use inertia::{Inertia, InertiaError};
-pub use joint::{Body, Joint, JointKind, JointLimits};
+pub use joint::{Body, EndEffector, Joint, JointKind, JointLimits};
 pub use ldl::Ldl;
 pub use model::{Model, ModelError};
 pub use mount::Mount;

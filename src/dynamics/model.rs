@@ -1,10 +1,11 @@
 //! The robot as its maker describes it: a tree of bodies joined by one-axis joints.
 
 use super::planarity::{self, Deviation, Plane};
-use super::{Body, InertiaError, Joint, Placement, massless};
+use super::{Body, EndEffector, InertiaError, Joint, Placement, massless};
 
 /// A robot that cannot be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ModelError {
     /// Nothing to plan.
     #[error("robot '{0}' has no joints; it needs at least one")]
@@ -56,7 +57,7 @@ pub struct Model {
     name: String,
     base: Body,
     joints: Vec<Joint>,
-    end_effector: Option<(Option<usize>, Placement)>,
+    end_effector: Option<EndEffector>,
     plane: Option<Plane>,
 }
 
@@ -109,7 +110,7 @@ impl Model {
 
     /// The same robot with an end-effector frame, placed in the body of a joint (or the base).
     pub fn with_end_effector(mut self, joint: Option<usize>, placement: Placement) -> Self {
-        self.end_effector = Some((joint, placement));
+        self.end_effector = Some(EndEffector { joint, placement });
         self
     }
 
@@ -141,8 +142,8 @@ impl Model {
         self.joints.len()
     }
 
-    /// End-effector frame: the joint whose body carries it (`None`: the base) and its placement.
-    pub fn end_effector(&self) -> Option<&(Option<usize>, Placement)> {
+    /// The end-effector frame; `None` where the robot has none.
+    pub fn end_effector(&self) -> Option<&EndEffector> {
         self.end_effector.as_ref()
     }
 

@@ -21,7 +21,7 @@ impl Tree<Spatial> {
 impl<Sp: Algebra> Tree<Sp> {
     fn with_end_effector(mut self, model: &Model) -> Self {
         let end_effector = model.end_effector();
-        self.end_effector = end_effector.map(|(link, placement)| self.mount(*link, placement));
+        self.end_effector = end_effector.map(|end| self.mount(end.joint, &end.placement));
         self
     }
 }

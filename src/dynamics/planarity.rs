@@ -2,7 +2,7 @@
 //!
 //! Derived in docs/algorithms.md#planar-motion.
 
-use super::{Body, Inertia, Joint, JointKind};
+use super::{Body, Inertia, Joint, JointKind, Placement};
 use nalgebra::{Matrix3, Vector3};
 
 /// Rounding allowed for in directions, heights (m) and products of inertia (relative).
@@ -49,7 +49,7 @@ pub(super) fn measure(base: &Body, joints: &[Joint]) -> Option<(Plane, Deviation
     let axes: Vec<Vector3<f64>> = joints
         .iter()
         .zip(&poses)
-        .map(|(j, (rotation, _))| rotation * j.axis.as_ref())
+        .map(|(joint, pose)| pose.rotation * joint.axis.as_ref())
         .collect();
     let first = joints.iter().position(|j| j.kind == JointKind::Revolute)?;
     // The first axis, turned so that the base's own axis it is closest to counts positive.
@@ -82,24 +82,20 @@ pub(super) fn measure(base: &Body, joints: &[Joint]) -> Option<(Plane, Deviation
         deviation.height = deviation.height.max(off);
     };
     add(&base.inertia);
-    for (joint, (rotation, origin)) in joints.iter().zip(&poses) {
-        add(&joint.body.inertia.placed(rotation, origin));
+    for (joint, pose) in joints.iter().zip(&poses) {
+        add(&joint.body.inertia.placed(&pose.rotation, &pose.translation));
     }
     Some((Plane { basis }, deviation))
 }
 
-/// Rotation and origin of every body frame in the base frame with all joints at zero.
-pub(super) fn zero_poses(joints: &[Joint]) -> Vec<(Matrix3<f64>, Vector3<f64>)> {
-    let mut poses: Vec<(Matrix3<f64>, Vector3<f64>)> = Vec::with_capacity(joints.len());
+/// Pose of every body frame in the base frame with all joints at zero.
+pub(super) fn zero_poses(joints: &[Joint]) -> Vec<Placement> {
+    let mut poses: Vec<Placement> = Vec::with_capacity(joints.len());
     for joint in joints {
-        let (rotation, origin) = match joint.parent {
-            Some(parent) => poses[parent],
-            None => (Matrix3::identity(), Vector3::zeros()),
-        };
-        poses.push((
-            rotation * joint.placement.rotation,
-            origin + rotation * joint.placement.translation,
-        ));
+        poses.push(match joint.parent {
+            Some(parent) => poses[parent].then(&joint.placement),
+            None => joint.placement.clone(),
+        });
     }
     poses
 }

@@ -31,6 +31,7 @@ pub fn attitude(rng: &mut Rng, by: SpatialAttitude) -> Vec<f64> {
             vec![q.w, q.i, q.j, q.k]
         }
         SpatialAttitude::Mrp => values(rng, 3, 1.2),
+        other => unreachable!("{other:?}"),
     }
 }
 
@@ -163,6 +164,7 @@ pub fn planar(rng: &mut Rng, normal: Vector3<f64>) -> Model {
         let axis = match kinds[j] {
             JointKind::Revolute => Vector3::z() * senses[j],
             JointKind::Prismatic => Vector3::new(uniform(rng), uniform(rng), 0.0),
+            other => unreachable!("{other:?}"),
         };
         joints.push(Joint {
             name: format!("joint{j}"),

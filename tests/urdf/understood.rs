@@ -2,7 +2,7 @@
 
 use crate::program::edited;
 use crate::robots::*;
-use ffsm_ipopt::dynamics::{Inertia, JointKind, Model, Placement};
+use ffsm_ipopt::dynamics::{EndEffector, Inertia, JointKind, Model, Placement};
 use ffsm_ipopt::nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
@@ -67,8 +67,11 @@ fn end_effector_is_the_only_last_link_or_the_one_named() {
         let rpy = [0.0, if turned { FRAC_PI_2 } else { 0.0 }, 0.0];
         Placement::from_xyz_rpy([x, 0.0, 0.0], rpy)
     };
-    let assert_at = |found: Option<(Option<usize>, Placement)>, joint, expected: Placement| {
-        let (carrier, placement) = found.expect("an end effector");
+    let assert_at = |found: Option<EndEffector>, joint, expected: Placement| {
+        let EndEffector {
+            joint: carrier,
+            placement,
+        } = found.expect("an end effector");
         assert_eq!(carrier, joint);
         assert!((placement.translation - expected.translation).amax() < 1e-15);
         assert!((placement.rotation - expected.rotation).amax() < 1e-15);
@@ -108,9 +111,9 @@ fn locked_joints_become_part_of_what_carries_them() {
         .robot;
     assert_eq!(robot.joint_count(), 1);
     assert!((robot.joints()[0].body.inertia.mass() - 7.5).abs() < 1e-15);
-    let (carrier, placement) = robot.end_effector().unwrap();
-    assert_eq!(*carrier, Some(0));
-    assert_near(&placement.translation, [0.5 + 0.3 + 0.5, 0.0, 0.0]);
+    let end = robot.end_effector().unwrap();
+    assert_eq!(end.joint, Some(0));
+    assert_near(&end.placement.translation, [0.5 + 0.3 + 0.5, 0.0, 0.0]);
     assert_eq!(
         complaint(&folder(
             ARM,

@@ -340,7 +340,7 @@ mod tests {
         let c = &model.joints()[1];
         assert_eq!((c.name.as_str(), c.parent), ("c", Some(0)));
         assert!((c.placement.translation - Vector3::new(1.0, 1.0, 0.0)).norm() < 1e-15);
-        assert_eq!(model.end_effector().unwrap().0, Some(1));
+        assert_eq!(model.end_effector().unwrap().joint, Some(1));
         assert!((model.total_mass() - 4.0).abs() < 1e-15);
     }
 
@@ -358,7 +358,10 @@ mod tests {
         assert!((placement.translation - Vector3::new(2.0, 0.0, 0.0)).norm() < 1e-15);
         assert!((placement.rotation * Vector3::x() - Vector3::y()).norm() < 1e-15);
         assert!(robot.set_end_effector("a_link") && !robot.set_end_effector("d_link"));
-        assert_eq!(model(robot).end_effector().unwrap().1.translation.x, 1.0);
+        assert_eq!(
+            model(robot).end_effector().unwrap().placement.translation.x,
+            1.0
+        );
     }
 
     #[test]
@@ -373,6 +376,6 @@ mod tests {
         let names: Vec<&str> = model.joints().iter().map(|j| j.name.as_str()).collect();
         assert_eq!(names, ["left", "left2", "right", "right2"]);
         assert_eq!(model.joints()[3].parent, Some(2));
-        assert_eq!(model.end_effector().unwrap().0, Some(3));
+        assert_eq!(model.end_effector().unwrap().joint, Some(3));
     }
 }

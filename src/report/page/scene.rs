@@ -328,7 +328,7 @@ fn outline(corners: &[Vector3<f64>], to_picture: &Matrix3<f64>) -> Vec<Vector3<f
 /// body as its joint is before it.
 fn ends(robot: &Model) -> Vec<(usize, Vector3<f64>)> {
     let effector = robot.end_effector();
-    let effector = effector.and_then(|(joint, at)| Some(((*joint)?, at.translation)));
+    let effector = effector.and_then(|end| Some((end.joint?, end.placement.translation)));
     let carries = |j: usize| robot.joints().iter().any(|joint| joint.parent == Some(j));
     let last = (0..robot.joint_count())
         .filter(|&j| !carries(j) && effector.is_none_or(|(joint, _)| joint != j));
