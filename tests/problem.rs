@@ -108,6 +108,11 @@ fn limits_that_cannot_be() {
             ("limits.keep_out[0].sphere.radius", |p| {
                 p.limits.keep_out = vec![pair(0.0, Some(0))]
             }),
+            ("limits.keep_out[0].capsule.radius", |p| {
+                let line = Solid::capsule(Some(0), [[0.0; 3], [0.5, 0.0, 0.0]], 0.0);
+                p.limits.keep_out = vec![pair(0.0, None)];
+                p.limits.keep_out[0].first = line;
+            }),
             ("limits.keep_out[0].sphere.body", |p| {
                 p.limits.keep_out = vec![pair(0.1, Some(2))]
             }),

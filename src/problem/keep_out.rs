@@ -199,9 +199,12 @@ impl Solid {
         matches!(self.shape, Shape::Box { .. })
     }
 
-    /// Whether it has no extent.
-    pub(super) fn is_point(&self) -> bool {
-        matches!(self.shape, Shape::Sphere { radius: 0.0, .. })
+    /// Whether it is a point or a line.
+    pub(super) fn has_no_volume(&self) -> bool {
+        matches!(
+            self.shape,
+            Shape::Sphere { radius: 0.0, .. } | Shape::Capsule { radius: 0.0, .. }
+        )
     }
 }
 

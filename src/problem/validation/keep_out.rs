@@ -1,5 +1,5 @@
 //! Pairs kept apart: bodies that are there and differ, finite numbers, sizes above zero, no two
-//! points and no two boxes.
+//! solids without volume and no two boxes.
 
 use super::checks::{Checked, error};
 use crate::problem::builder::ProblemBuilder;
@@ -20,10 +20,10 @@ pub(crate) fn pair(key: &str, pair: &KeepOut, joints: usize) -> Checked {
     let (first, second) = (&pair.first, &pair.second);
     solid(first, joints, |rest| format!("{key}.{of_first}.{rest}"))?;
     solid(second, joints, |rest| format!("{key}.from.{rest}"))?;
-    if first.is_point() && second.is_point() {
+    if first.has_no_volume() && second.has_no_volume() {
         let expected = "a radius above zero on one side";
         let key = format!("{key}.{of_first}.radius");
-        return Err(error(key, "two points", expected));
+        return Err(error(key, "two solids without volume", expected));
     }
     if first.is_box() && second.is_box() {
         let expected = "one of both as spheres";
