@@ -18,16 +18,16 @@ pub(super) enum Failure {
     Config(#[from] ConfigError),
     #[error(transparent)]
     Solution(#[from] SolutionError),
-    #[error("{path}: {source}")]
-    Verify { path: String, source: VerifyError },
-    #[error("{path}: {source}")]
-    Start { path: String, source: PlanError },
-    #[error("{path}: {source}")]
-    Simulate { path: String, source: SimulateError },
+    #[error("{path}: {cause}")]
+    Verify { path: String, cause: VerifyError },
+    #[error("{path}: {cause}")]
+    Start { path: String, cause: PlanError },
+    #[error("{path}: {cause}")]
+    Simulate { path: String, cause: SimulateError },
     #[error(transparent)]
     Output(#[from] OutputError),
-    #[error("{path}: {source}")]
-    Plan { path: String, source: PlanError },
+    #[error("{path}: {cause}")]
+    Plan { path: String, cause: PlanError },
     #[error("{path}: the solution cannot be written: {message}")]
     Format { path: String, message: String },
     #[error("{0}")]
@@ -96,22 +96,22 @@ impl Failure {
                 let expected = "a linear solver that works here, see ffsm-ipopt doctor";
                 value("solver.linear_solver", error.to_string(), expected)
             }
-            (source @ PlanError::Start { .. }, Some(path)) => Self::Start {
+            (cause @ PlanError::Start { .. }, Some(path)) => Self::Start {
                 path: path.display().to_string(),
-                source,
+                cause,
             },
             (
-                source @ PlanError::Ipopt(
+                cause @ PlanError::Ipopt(
                     IpoptError::StartDimension { .. } | IpoptError::StartNotFinite { .. },
                 ),
                 Some(path),
             ) => Self::Start {
                 path: path.display().to_string(),
-                source,
+                cause,
             },
-            (source, _) => Self::Plan {
+            (cause, _) => Self::Plan {
                 path: file.path.clone(),
-                source,
+                cause,
             },
         }
     }

@@ -36,8 +36,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         }
     }
     let folder = OutputFolder::create(path).map_err(|error| match error {
-        OutputError::Folder { path, source } => Failure::Usage(format!(
-            "{}: cannot be written to: {source}; expected a folder that can",
+        OutputError::Folder { path, cause } => Failure::Usage(format!(
+            "{}: cannot be written to: {cause}; expected a folder that can",
             path.display()
         )),
         other => other.into(),

@@ -24,9 +24,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let path = &arguments.solution;
     let saved = Saved::load(path)?;
     let problem = &saved.file.problem;
-    check(problem, &saved.plan).map_err(|source| Failure::Verify {
+    check(problem, &saved.plan).map_err(|cause| Failure::Verify {
         path: path.display().to_string(),
-        source,
+        cause,
     })?;
     let beside = || path.with_file_name("report.html");
     let out = arguments.out.clone().unwrap_or_else(beside);

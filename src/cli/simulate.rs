@@ -47,9 +47,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 fn play(arguments: &Arguments, solution: &Path, platform: &Path) -> Result<Outcome, Failure> {
     let saved = Saved::load(solution)?;
     let problem = &saved.file.problem;
-    let failure = |source: SimulateError| Failure::Simulate {
+    let failure = |cause: SimulateError| Failure::Simulate {
         path: solution.display().to_string(),
-        source,
+        cause,
     };
     let robot = &problem.robot;
     let mut file = PlatformFile::load(platform, robot)?;

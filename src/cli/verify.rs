@@ -27,9 +27,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let problem = &saved.file.problem;
     let default = || Path::new("out").join(&problem.name);
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
-    let found = verify(problem, &saved.plan).map_err(|source| Failure::Verify {
+    let found = verify(problem, &saved.plan).map_err(|cause| Failure::Verify {
         path: path.display().to_string(),
-        source,
+        cause,
     })?;
     let json = verification_json(&problem.name, path, &found).map_err(|error| Failure::Format {
         path: path.display().to_string(),

@@ -22,7 +22,8 @@ impl fmt::Display for Place {
     }
 }
 
-/// An input that cannot be used. Its message is always one line.
+/// An input that cannot be used. Its message is always one line and says all: a `cause` is part of
+/// it, so that it is no [`source`](std::error::Error::source) to be said once more.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConfigError {
@@ -77,23 +78,23 @@ pub enum ConfigError {
         expected: String,
     },
     /// Mass properties that no body has.
-    #[error("{place}: {key}: {source}")]
+    #[error("{place}: {key}: {cause}")]
     Inertia {
         /// The line.
         place: Place,
         /// Full key path.
         key: String,
         /// What is wrong with them.
-        source: InertiaError,
+        cause: InertiaError,
     },
     /// Joints that make no robot.
-    #[error("{place}: {key}: {source}")]
+    #[error("{place}: {key}: {cause}")]
     Model {
         /// The line.
         place: Place,
         /// Full key path.
         key: String,
         /// What is wrong with them.
-        source: ModelError,
+        cause: ModelError,
     },
 }

@@ -14,8 +14,8 @@ pub(super) fn read(section: &Section<'_>) -> Result<Inertia, ConfigError> {
         None => Vector3::zeros(),
     };
     let inertia_item = section.require("inertia", EXPECTED)?;
-    Inertia::new(mass, center, matrix(inertia_item)?).map_err(|source| {
-        let item = match source {
+    Inertia::new(mass, center, matrix(inertia_item)?).map_err(|cause| {
+        let item = match cause {
             InertiaError::Mass(_) => mass_item,
             InertiaError::Center(_) => section.get("com").unwrap_or(mass_item),
             _ => inertia_item,
@@ -23,7 +23,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<Inertia, ConfigError> {
         ConfigError::Inertia {
             place: item.node.place.clone(),
             key: item.key.clone(),
-            source,
+            cause,
         }
     })
 }

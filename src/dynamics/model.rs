@@ -42,12 +42,12 @@ pub enum ModelError {
         body: String,
     },
     /// A body's mass properties.
-    #[error("body '{body}': {source}")]
+    #[error("body '{body}': {cause}")]
     Inertia {
         /// Name of the body.
         body: String,
         /// What is wrong with it.
-        source: InertiaError,
+        cause: InertiaError,
     },
 }
 

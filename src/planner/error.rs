@@ -12,10 +12,10 @@ pub enum PlanError {
     #[error(transparent)]
     Problem(#[from] ProblemError),
     /// The mesh cannot be.
-    #[error("mesh: {0}")]
+    #[error(transparent)]
     Mesh(#[from] MeshError),
     /// The solver refused it.
-    #[error("Ipopt: {0}")]
+    #[error(transparent)]
     Ipopt(#[from] ipopt::IpoptError),
     /// A warm start that belongs to another robot.
     #[error(

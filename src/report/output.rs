@@ -11,30 +11,30 @@ use std::path::{Path, PathBuf};
 pub enum OutputError {
     /// The folder.
     #[error(
-        "{}: the output folder cannot be written: {source}; expected a folder that can, see --out",
+        "{}: the output folder cannot be written: {cause}; expected a folder that can, see --out",
         path.display()
     )]
     Folder {
         /// The folder.
         path: PathBuf,
         /// What the system says.
-        source: io::Error,
+        cause: io::Error,
     },
     /// A file in it.
-    #[error("{}: cannot be written: {source}", path.display())]
+    #[error("{}: cannot be written: {cause}", path.display())]
     File {
         /// The file.
         path: PathBuf,
         /// What the system says.
-        source: io::Error,
+        cause: io::Error,
     },
     /// A figure for it.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {cause}", path.display())]
     Figure {
         /// The file.
         path: PathBuf,
         /// Why it cannot be drawn.
-        source: PlotError,
+        cause: PlotError,
     },
 }
 
@@ -56,9 +56,9 @@ impl OutputFolder {
         };
         match try_out() {
             Ok(_) => Ok(Self { path: path.into() }),
-            Err(source) => Err(OutputError::Folder {
+            Err(cause) => Err(OutputError::Folder {
                 path: path.into(),
-                source,
+                cause,
             }),
         }
     }
@@ -86,9 +86,9 @@ impl OutputFolder {
             file.persist(&path)?;
             Ok(())
         };
-        write().map_err(|source| OutputError::File {
+        write().map_err(|cause| OutputError::File {
             path: path.clone(),
-            source,
+            cause,
         })?;
         Ok(path)
     }
@@ -100,9 +100,9 @@ impl OutputFolder {
     pub fn write_figure(&self, name: &str, figure: &Figure) -> Result<[PathBuf; 2], OutputError> {
         let svg = figure.svg();
         let picture = format!("{name}.png");
-        let pixels = plot::png(&svg).map_err(|source| OutputError::Figure {
+        let pixels = plot::png(&svg).map_err(|cause| OutputError::Figure {
             path: self.path.join(&picture),
-            source,
+            cause,
         })?;
         Ok([
             self.write(&format!("{name}.svg"), &svg)?,

@@ -22,23 +22,23 @@ pub enum ReproductionError {
     #[error(transparent)]
     Problem(#[from] ProblemError),
     /// A plan cannot be made.
-    #[error("{title}: {source}")]
+    #[error("{title}: {cause}")]
     Plan {
         /// What was being planned.
         title: String,
         /// Why not.
-        source: PlanError,
+        cause: PlanError,
     },
     /// A saved plan cannot be used.
     #[error(transparent)]
     Solution(#[from] SolutionError),
     /// A plan cannot be played on the platform.
-    #[error("{name}: {source}")]
+    #[error("{name}: {cause}")]
     Simulate {
         /// The fit file, or what was being played.
         name: String,
         /// Why not.
-        source: SimulateError,
+        cause: SimulateError,
     },
     /// Stopped from outside.
     #[error("interrupted: nothing further was written")]
@@ -149,7 +149,7 @@ impl<'m> Session<'m> {
         self.begin(&title)?;
         let mut told = |_, event: &Event<'_>| self.show(event);
         let found = Comparison::plan(problem, &mut told)
-            .map_err(|source| ReproductionError::Plan { title, source })?;
+            .map_err(|cause| ReproductionError::Plan { title, cause })?;
         let plans = found
             .entries
             .iter()
@@ -172,7 +172,7 @@ impl<'m> Session<'m> {
         self.begin(&title)?;
         front
             .sweep(factors, &mut |_, event| self.show(event))
-            .map_err(|source| ReproductionError::Plan { title, source })?;
+            .map_err(|cause| ReproductionError::Plan { title, cause })?;
         refuse_interrupted(front.points().iter().map(|point| &point.plan))
     }
 
@@ -189,9 +189,9 @@ impl<'m> Session<'m> {
             .plan_by(method, problem, start, &mut |event| {
                 monitor(Step::Event(event))
             })
-            .map_err(|source| ReproductionError::Plan {
+            .map_err(|cause| ReproductionError::Plan {
                 title: title.into(),
-                source,
+                cause,
             })?;
         refuse_interrupted([&plan])?;
         Ok(plan)

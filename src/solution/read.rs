@@ -12,12 +12,12 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum SolutionError {
     /// It cannot be read.
-    #[error("{}: cannot be read: {source}; expected a solution.json", path.display())]
+    #[error("{}: cannot be read: {cause}; expected a solution.json", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
         /// What the system says.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// It is no solution file.
     #[error("{}: {key}: {message}; expected a solution.json of schema 1", path.display())]
@@ -30,12 +30,12 @@ pub enum SolutionError {
         message: String,
     },
     /// Its mesh cannot be.
-    #[error("{}: mesh: {source}", path.display())]
+    #[error("{}: mesh: {cause}", path.display())]
     Mesh {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        source: MeshError,
+        cause: MeshError,
     },
     /// Its rows do not fit its mesh.
     #[error("{}: trajectory.{key}: {found}; expected {expected}", path.display())]
@@ -50,12 +50,12 @@ pub enum SolutionError {
         expected: String,
     },
     /// The texts of problem and robot in it no longer make a problem.
-    #[error("{}: provenance: {source}", path.display())]
+    #[error("{}: provenance: {cause}", path.display())]
     Provenance {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        source: Box<ConfigError>,
+        cause: Box<ConfigError>,
     },
 }
 
@@ -94,7 +94,7 @@ impl Saved {
         )
         .map_err(|error| SolutionError::Provenance {
             path: path.into(),
-            source: Box::new(error),
+            cause: Box::new(error),
         })?;
         Ok(Self {
             solution,
@@ -109,9 +109,9 @@ impl Saved {
 /// # Errors
 /// [`SolutionError`] where it is none, or of another schema.
 pub fn read_solution(path: &Path) -> Result<Solution, SolutionError> {
-    let text = std::fs::read_to_string(path).map_err(|source| SolutionError::Unreadable {
+    let text = std::fs::read_to_string(path).map_err(|cause| SolutionError::Unreadable {
         path: path.into(),
-        source,
+        cause,
     })?;
     let format = |key: String, message: String| SolutionError::Format {
         path: path.into(),
@@ -137,10 +137,10 @@ pub(super) fn discretization(
 ) -> Result<Discretization, SolutionError> {
     let saved = &solution.mesh;
     let mesh =
-        Mesh::new(saved.breakpoints.clone(), &saved.points_per_segment).map_err(|source| {
+        Mesh::new(saved.breakpoints.clone(), &saved.points_per_segment).map_err(|cause| {
             SolutionError::Mesh {
                 path: path.into(),
-                source,
+                cause,
             }
         })?;
     rows(mesh, &solution.trajectory).map_err(|row| {

@@ -43,9 +43,9 @@ impl Robot {
     pub(super) fn model(&self) -> Result<Model, ConfigError> {
         let entries = &self.description.joints;
         refuse(entries)?;
-        self.description.model().map_err(|source| match &source {
+        self.description.model().map_err(|cause| match &cause {
             ModelError::Base { .. } => self.error(
-                source.to_string(),
+                cause.to_string(),
                 "a heavier root link, or a spacecraft under it: [base] with mass and inertia",
             ),
             ModelError::MasslessJoint { joint, .. } => {
@@ -53,14 +53,14 @@ impl Robot {
                 ConfigError::Format {
                     place: entry.map_or(&self.place, |entry| &entry.place).clone(),
                     message: format!(
-                        "{source}; expected bodies with mass, a fixed joint, or this one in robot.lock"
+                        "{cause}; expected bodies with mass, a fixed joint, or this one in robot.lock"
                     ),
                 }
             }
             _ => ConfigError::Model {
                 place: self.place.clone(),
                 key: self.key.clone(),
-                source,
+                cause,
             },
         })
     }

@@ -73,9 +73,9 @@ pub fn largest_final_attitude(
         settings: &settings,
         solver: &solver,
     };
-    let failed = |source: PlanError| ReproductionError::Plan {
+    let failed = |cause: PlanError| ReproductionError::Plan {
         title: "largest final attitude".into(),
-        source,
+        cause,
     };
     let mesh = settings
         .first_mesh()

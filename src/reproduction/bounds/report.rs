@@ -80,7 +80,7 @@ pub fn bounded(session: &mut Session<'_>) -> Result<(Case, Plan), ReproductionEr
         .first_mesh()
         .map_err(|error| ReproductionError::Plan {
             title: title.clone(),
-            source: error.into(),
+            cause: error.into(),
         })?;
     let start = Start {
         trajectory: published.discretization.resample(mesh),

@@ -23,9 +23,9 @@ struct Played {
 /// # Errors
 /// [`ReproductionError`] where a file it names, a plan or a simulation fails, or it is stopped.
 pub fn fit(session: &mut Session<'_>, file: &FitFile) -> Result<FitReport, ReproductionError> {
-    let failure = |source: SimulateError| ReproductionError::Simulate {
+    let failure = |cause: SimulateError| ReproductionError::Simulate {
         name: file.path.clone(),
-        source,
+        cause,
     };
     let mut platform = None;
     let mut experiments = Vec::new();
@@ -90,7 +90,7 @@ fn played(
             let title = format!("{name}, {} by {}", found.problem.name, method.name());
             let plan = match session.plan_by(method, &title, &found.problem) {
                 Err(ReproductionError::Plan {
-                    source: PlanError::Problem(error),
+                    cause: PlanError::Problem(error),
                     ..
                 }) => return Err(found.blame(error).into()),
                 plan => plan?,

@@ -43,9 +43,9 @@ pub fn played(session: &mut Session<'_>) -> Result<Vec<Played>, ReproductionErro
         let problem = ProblemFile::shipped(name)?.problem;
         for method in [Method::Collocation(refine::Method::Adaptive), Method::Matpm] {
             let title = format!("{name} by {} on {PLATFORM}", method.name());
-            let failure = |source: SimulateError| ReproductionError::Simulate {
+            let failure = |cause: SimulateError| ReproductionError::Simulate {
                 name: title.clone(),
-                source,
+                cause,
             };
             let plan = session.plan_by(method, &title, &problem)?;
             let solved = plan.status == Status::Solved;

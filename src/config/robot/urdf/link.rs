@@ -51,10 +51,10 @@ fn inertia(element: &Element<'_, '_>) -> Result<Inertia, ConfigError> {
     // Judged as it stands in the file, not as turned.
     match Inertia::part(mass, Vector3::zeros(), own) {
         Ok(inertia) => Ok(inertia.placed(&pose.rotation, &pose.translation)),
-        Err(source) => Err(ConfigError::Inertia {
+        Err(cause) => Err(ConfigError::Inertia {
             place: inertia_element.place(),
             key: inertia_element.path().into(),
-            source,
+            cause,
         }),
     }
 }
