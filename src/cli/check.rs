@@ -11,7 +11,6 @@ use crate::problem::{
     ComponentKind, CostEntry, CostId, EndEffectorGoal, GoalFrame, KeepOut, LimitId, Moment,
     Problem, Solid, Unit, WayPoint,
 };
-use crate::refine::Method;
 use crate::report::{Lines, rotation};
 use crate::system::straight_line;
 use clap::Args;
@@ -285,17 +284,9 @@ fn cost(lines: &mut Lines, problem: &Problem) {
 
 fn mesh(lines: &mut Lines, problem: &Problem) {
     let mesh = &problem.mesh;
-    let first = match mesh.method {
-        Method::Adaptive => format!(
-            "a-rpm: {} segments of {} points, at most {} points and {} iterations",
-            mesh.segments, mesh.points, mesh.max_points, mesh.max_iterations
-        ),
-        Method::Global => format!(
-            "rpm: one segment of {} points, at most {}",
-            mesh.global_points, mesh.max_global_points
-        ),
-    };
-    lines.add("mesh", format!("{first}; tolerance {:e}", mesh.tolerance));
+    let (method, first) = (mesh.method.name(), mesh.law().describe());
+    let described = format!("{method}: {first}; tolerance {:e}", mesh.tolerance);
+    lines.add("mesh", described);
 }
 
 /// Base motion when the joints move along the straight line.

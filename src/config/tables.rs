@@ -126,7 +126,11 @@ pub(super) fn limits(
     let section = item.section(&known)?;
     for entry in limits.entries_mut() {
         if let Some(item) = section.get(entry.id.name()) {
-            *entry.bounds = components.of(entry.components).bounds(item, entry.bounds)?;
+            *entry.bounds = components.of(entry.components).bounds(
+                item,
+                entry.bounds,
+                entry.id.may_exclude_zero(),
+            )?;
         }
     }
     if let Some(item) = section.get(LimitId::KeepOut.name()) {
@@ -195,11 +199,10 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         "global_points",
     ])?;
     if let Some(item) = section.get("method") {
-        let expected = "\"a-rpm\" or \"rpm\"";
-        let name = item.text(expected)?;
-        let methods = [Method::Adaptive, Method::Global];
-        let found = methods.into_iter().find(|method| method.name() == name);
-        mesh.method = found.ok_or_else(|| item.error(quoted(name), expected))?;
+        let expected = Method::ALL.map(|method| quoted(method.name())).join(" or ");
+        let name = item.text(&expected)?;
+        let found = Method::ALL.into_iter().find(|method| method.name() == name);
+        mesh.method = found.ok_or_else(|| item.error(quoted(name), &expected))?;
     }
     for (name, value, most) in [
         ("segments", &mut mesh.segments, MOST),

@@ -186,11 +186,13 @@ impl Components {
     }
 
     /// Bounds: one for all, an array of one each, or a table by name (`default` for those left
-    /// out). See [`Components::pair`] for the one doubtful case.
+    /// out). See [`Components::pair`] for the one doubtful case, where it matters whether a range
+    /// `may_exclude_zero`.
     pub(super) fn bounds(
         &self,
         item: &Item<'_>,
         default: &[Interval],
+        may_exclude_zero: bool,
     ) -> Result<Vec<Interval>, ConfigError> {
         let expected = format!("a number, [lo, hi], or one of those a {}", self.what);
         let all = |bound| vec![bound; self.len()];
@@ -209,7 +211,7 @@ impl Components {
                 .collect();
         };
         if let Some(pair) = flat_pair(&elements)
-            && self.pair(item, pair)?
+            && self.pair(item, pair, may_exclude_zero)?
         {
             return range(item, &elements).map(all);
         }
@@ -220,12 +222,17 @@ impl Components {
     ///
     /// Only where there are two components can there be a doubt: a range that holds zero starts
     /// at or below it, and bounds of both are above it. A rising pair above zero is a range only
-    /// of positions, and there the file has to say which is meant.
-    fn pair(&self, item: &Item<'_>, [a, b]: [f64; 2]) -> Result<bool, ConfigError> {
+    /// where it `may_exclude_zero`, and there the file has to say which is meant.
+    fn pair(
+        &self,
+        item: &Item<'_>,
+        [a, b]: [f64; 2],
+        may_exclude_zero: bool,
+    ) -> Result<bool, ConfigError> {
         if self.len() != 2 || a.min(b) <= 0.0 {
             return Ok(true);
         }
-        if a < b && item.name == "joint_position" {
+        if a < b && may_exclude_zero {
             let expected = format!(
                 "[[{a}, {b}], [{a}, {b}]] for one range or [[{}, {a}], [{}, {b}]] for a bound each",
                 -a, -b

@@ -20,17 +20,30 @@ pub enum Method {
     AccelerationQp,
 }
 
+/// Those that are no method of collocation of the problem as it is.
+const OTHERS: [Method; 5] = [
+    Method::BaseRate,
+    Method::Matpm,
+    Method::StraightLine,
+    Method::ReactionNullSpace,
+    Method::AccelerationQp,
+];
+
 impl Method {
     /// All of them, in the order of a comparison.
-    pub const ALL: [Self; 7] = [
-        Self::Collocation(refine::Method::Adaptive),
-        Self::Collocation(refine::Method::Global),
-        Self::BaseRate,
-        Self::Matpm,
-        Self::StraightLine,
-        Self::ReactionNullSpace,
-        Self::AccelerationQp,
-    ];
+    pub const ALL: [Self; refine::Method::ALL.len() + OTHERS.len()] = {
+        let mut all = [Self::Matpm; _];
+        let mut i = 0;
+        while i < all.len() {
+            all[i] = if i < refine::Method::ALL.len() {
+                Self::Collocation(refine::Method::ALL[i])
+            } else {
+                OTHERS[i - refine::Method::ALL.len()]
+            };
+            i += 1;
+        }
+        all
+    };
 
     /// The name in files and on the command line.
     pub fn name(self) -> &'static str {
@@ -47,8 +60,7 @@ impl Method {
     /// What it does, in a line.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Collocation(refine::Method::Adaptive) => "Adaptive Radau pseudospectral method",
-            Self::Collocation(refine::Method::Global) => "Global Radau pseudospectral method",
+            Self::Collocation(method) => method.title(),
             Self::BaseRate => "A-RPM with the integral of the base rate as its only cost",
             Self::Matpm => "Least largest joint acceleration: bang-bang, or bang-cruise-bang",
             Self::StraightLine => "Straight joint path with quintic timing",

@@ -2,6 +2,7 @@
 
 use super::{Plan, Status};
 use crate::dynamics::JointKind;
+use crate::largest::largest;
 use crate::problem::Problem;
 use crate::verify::{Verification, verify};
 
@@ -76,7 +77,7 @@ impl Plan {
         let rows = &self.trajectory.joint_position;
         let first = rows.first().map_or(&[][..], |row| row);
         let ways = rows.iter().flat_map(|row| row.iter().zip(first));
-        ways.map(|(q, start)| (q - start).abs()).fold(0.0, f64::max)
+        largest(ways.map(|(q, start)| (q - start).abs()))
     }
 }
 

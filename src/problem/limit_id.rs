@@ -92,6 +92,12 @@ impl LimitId {
         }
     }
 
+    /// Whether its range may lie beside zero: positions may, while rates, accelerations, torques and
+    /// the displacement of the base have to be able to vanish.
+    pub fn may_exclude_zero(self) -> bool {
+        self == Self::JointPosition
+    }
+
     /// Whether it limits the motion of the base: a requirement of the mission, where limits of the
     /// joints are properties of the hardware.
     pub fn is_on_base(self) -> bool {

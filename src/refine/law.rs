@@ -32,6 +32,9 @@ pub trait RefinementLaw {
     /// [`MeshError`] where a count is zero.
     fn first_mesh(&self) -> Result<Mesh, MeshError>;
 
+    /// The first mesh and the bounds on its refinement, in words.
+    fn describe(&self) -> String;
+
     /// Whether the mesh iteration `iteration`, counted from 1, is the last whatever its errors;
     /// `accurate` says that these are within the tolerance.
     fn is_last(&self, iteration: usize, accurate: bool) -> bool;

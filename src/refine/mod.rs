@@ -4,6 +4,7 @@
 //! | file | does |
 //! | --- | --- |
 //! | `settings` | first mesh, tolerances, constants of the laws |
+//! | `method` | the methods by name |
 //! | `error`, `quadrature` | the error estimate (28), and one of the states themselves |
 //! | `violation` | bounds exceeded between the nodes |
 //! | `law`, `laws` | what a law is, and one file a law |
@@ -17,6 +18,7 @@ mod driver;
 mod error;
 mod law;
 mod laws;
+mod method;
 mod quadrature;
 mod record;
 mod settings;
@@ -27,8 +29,9 @@ mod violation;
 pub use driver::{Event, Outcome, Refinement, Start};
 pub use error::{Errors, midpoint_errors};
 pub use law::{Assessment, Refined, RefinementLaw};
+pub use method::Method;
 pub use quadrature::quadrature_error;
 pub use record::{Decision, Record};
-pub use settings::{Method, Settings};
+pub use settings::{SettingError, Settings};
 pub use verdict::Verdict;
 pub use violation::{Bounded, Violation, violations};

@@ -1,27 +1,6 @@
 //! Settings of the mesh and its refinement.
 
-/// How accuracy is raised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Method {
-    /// Adaptive Radau pseudospectral method: segments divided or degrees raised, eq. (29)–(32).
-    Adaptive,
-    /// Traditional global Radau pseudospectral method: one segment, the degree raised.
-    Global,
-}
-
-impl Method {
-    /// Every method.
-    pub const ALL: [Self; 2] = [Self::Adaptive, Self::Global];
-
-    /// The name in files and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Adaptive => "a-rpm",
-            Self::Global => "rpm",
-        }
-    }
-}
+use super::Method;
 
 /// First mesh, tolerance and refinement law. Each field says its default.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,8 +56,8 @@ impl Settings {
     /// Checks every field.
     ///
     /// # Errors
-    /// Key, what stands there and what was expected.
-    pub fn validate(&self) -> Result<(), (&'static str, String, String)> {
+    /// [`SettingError`] for the first that cannot be.
+    pub fn validate(&self) -> Result<(), SettingError> {
         let at_least_one = [
             ("segments", self.segments),
             ("points", self.points),
@@ -87,20 +66,16 @@ impl Settings {
         ];
         for (key, value) in at_least_one {
             if value == 0 {
-                return Err((key, "0".into(), "a whole number of at least 1".into()));
+                return wrong(key, value, "a whole number of at least 1");
             }
         }
         if self.max_points < self.points {
             let expected = format!("at least mesh.points, {}", self.points);
-            return Err(("max_points", self.max_points.to_string(), expected));
+            return wrong("max_points", self.max_points, &expected);
         }
         if self.max_global_points < self.global_points {
             let expected = format!("at least mesh.global_points, {}", self.global_points);
-            return Err((
-                "max_global_points",
-                self.max_global_points.to_string(),
-                expected,
-            ));
+            return wrong("max_global_points", self.max_global_points, &expected);
         }
         let above_zero = [
             ("tolerance", self.tolerance),
@@ -110,13 +85,33 @@ impl Settings {
         ];
         for (key, value) in above_zero {
             if !(value.is_finite() && value > 0.0) {
-                return Err((key, value.to_string(), "a finite number above zero".into()));
+                return wrong(key, value, "a finite number above zero");
             }
         }
         if !(self.r_max.is_finite() && self.r_max >= 1.0) {
-            let expected = "a finite ratio of at least 1".into();
-            return Err(("r_max", self.r_max.to_string(), expected));
+            return wrong("r_max", self.r_max, "a finite ratio of at least 1");
         }
         Ok(())
     }
+}
+
+/// A setting that cannot be.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{key}: {found}; expected {expected}")]
+#[non_exhaustive]
+pub struct SettingError {
+    /// The field.
+    pub key: &'static str,
+    /// What stands there.
+    pub found: String,
+    /// What was expected.
+    pub expected: String,
+}
+
+fn wrong(key: &'static str, found: impl ToString, expected: &str) -> Result<(), SettingError> {
+    Err(SettingError {
+        key,
+        found: found.to_string(),
+        expected: expected.into(),
+    })
 }

@@ -25,7 +25,7 @@ impl<Sp: Space> FreeFloating<Sp> {
             Limited::Control(j) => &bounded.controls[j],
             Limited::Path(p) => &bounded.path[p],
             Limited::Boundary(b) => &bounded.boundary[b],
-            Limited::Passed(w, i) => &self.way_points[w].states[i],
+            Limited::WayPointState(w, i) => &self.way_points[w].states[i],
             Limited::WayPoint(w, r) => &self.way_points[w].rows()[r],
         }
     }
@@ -98,7 +98,7 @@ impl<Sp: Space> FreeFloating<Sp> {
             .chain((parameters..bounded.states.len()).map(Limited::State))
             .chain(rest(&bounded.boundary, Limited::Boundary))
             .chain(points.flat_map(|(w, point)| {
-                let states = (0..point.states.len()).map(move |i| Limited::Passed(w, i));
+                let states = (0..point.states.len()).map(move |i| Limited::WayPointState(w, i));
                 states.chain((0..point.rows().len()).map(move |r| Limited::WayPoint(w, r)))
             }))
             .chain((0..bounded.controls.len()).map(Limited::Control))

@@ -5,7 +5,7 @@
 //! multipliers and slacks are placed where the variables of their rows are. Separators are taken
 //! where they are smallest: for a transcription, the states at the end of a segment.
 //!
-//! Derived in docs/algorithms.md#cut-along-the-time-axis.
+//! Derived in docs/algorithms.md#partition-along-the-time-axis.
 
 use super::Pattern;
 use super::graph::Graph;

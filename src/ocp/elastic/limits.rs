@@ -17,7 +17,7 @@ pub enum Limited {
     /// The bounds of a boundary row.
     Boundary(usize),
     /// The bounds of a state at a way-point: which way-point, which state.
-    Passed(usize, usize),
+    WayPointState(usize, usize),
     /// The bounds of a row of a way-point: which way-point, which row.
     WayPoint(usize, usize),
 }
@@ -128,7 +128,7 @@ impl<'a, O: Ocp> Elastic<'a, O> {
                         let from = &mut base.boundary[b].bounds;
                         boundary.push(ElasticBound::take(AtInstant::Row(b), group, from));
                     }
-                    Limited::Passed(w, i) => {
+                    Limited::WayPointState(w, i) => {
                         let from = &mut base.way_points[w].states[i];
                         way_points[w].push(ElasticBound::take(AtInstant::State(i), group, from));
                     }

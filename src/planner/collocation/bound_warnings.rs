@@ -16,6 +16,12 @@ pub(super) fn warnings<Sp: Space>(
             Bounded::State(i) => Limited::State(i),
             Bounded::Path(p) => Limited::Path(p),
         });
+        if violation.value.is_nan() {
+            return format!(
+                "{} ({}) is not a number between the points of the mesh, at {:.3} s",
+                row.id.limit, row.quantity.name, violation.t
+            );
+        }
         let excess = row
             .measured_bounds()
             .violation(row.measured(violation.value));

@@ -1,6 +1,7 @@
 //! What a user should know before using a plan, a sentence each.
 
 use crate::dynamics::attitude::SpatialAttitude;
+use crate::largest::largest;
 use crate::nlp::{self, ipopt};
 use crate::refine::Outcome;
 use crate::system::Trajectory;
@@ -42,7 +43,7 @@ const LONG: f64 = 3.0;
 fn near_singularity(trajectory: &Trajectory) -> Option<String> {
     let most = |size: fn(&[f64]) -> f64| {
         let rows = trajectory.base_attitude.iter();
-        rows.map(|eta| size(eta)).fold(0.0, f64::max)
+        largest(rows.map(|eta| size(eta)))
     };
     match trajectory.attitude? {
         SpatialAttitude::RollPitchYaw => {

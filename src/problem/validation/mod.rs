@@ -13,6 +13,7 @@ pub(crate) use keep_out::pair as check_pair;
 
 use super::builder::ProblemBuilder;
 use super::error::ProblemError;
+use crate::refine::SettingError;
 use checks::error;
 
 /// Checks all of `problem`; the first thing found wrong is the error.
@@ -30,6 +31,11 @@ pub(super) fn check(problem: &ProblemBuilder) -> Result<(), ProblemError> {
 }
 
 fn mesh(problem: &ProblemBuilder) -> Result<(), ProblemError> {
-    let wrong = |(key, found, expected)| error(format!("mesh.{key}"), found, expected);
+    let wrong = |SettingError {
+                     key,
+                     found,
+                     expected,
+                     ..
+                 }| { error(format!("mesh.{key}"), found, expected) };
     problem.mesh.validate().map_err(wrong)
 }

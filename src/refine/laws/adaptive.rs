@@ -25,7 +25,7 @@ use crate::refine::{Assessment, Decision, Refined, RefinementLaw, Settings, Viol
 const OUTERMOST: f64 = 0.9;
 
 #[derive(Debug)]
-pub(super) struct Adaptive<'a>(pub &'a Settings);
+pub(super) struct Law<'a>(pub &'a Settings);
 
 /// What becomes of one segment.
 enum Change {
@@ -36,9 +36,17 @@ enum Change {
     Divide(Vec<f64>),
 }
 
-impl RefinementLaw for Adaptive<'_> {
+impl RefinementLaw for Law<'_> {
     fn first_mesh(&self) -> Result<Mesh, MeshError> {
         Mesh::uniform(self.0.segments, self.0.points)
+    }
+
+    fn describe(&self) -> String {
+        let settings = self.0;
+        format!(
+            "{} segments of {} points, at most {} points and {} iterations",
+            settings.segments, settings.points, settings.max_points, settings.max_iterations
+        )
     }
 
     fn is_last(&self, iteration: usize, _accurate: bool) -> bool {
@@ -68,7 +76,7 @@ impl RefinementLaw for Adaptive<'_> {
     }
 }
 
-impl Adaptive<'_> {
+impl Law<'_> {
     fn change(&self, assessment: &Assessment<'_>, s: usize) -> Change {
         let settings = self.0;
         let (state, error) = assessment.errors.worst(s);
@@ -153,7 +161,7 @@ mod tests {
             relative,
         });
         let settings = settings();
-        Adaptive(&settings).refine(&Assessment {
+        Law(&settings).refine(&Assessment {
             trajectory: &trajectory,
             errors: &Errors {
                 by_segment: vec![vec![error]],

@@ -7,11 +7,19 @@ use crate::refine::{Assessment, Decision, Refined, RefinementLaw, Settings};
 
 /// One segment, or one between each two way-points, all with as many points.
 #[derive(Debug)]
-pub(super) struct Global<'a>(pub &'a Settings);
+pub(super) struct Law<'a>(pub &'a Settings);
 
-impl RefinementLaw for Global<'_> {
+impl RefinementLaw for Law<'_> {
     fn first_mesh(&self) -> Result<Mesh, MeshError> {
         Mesh::uniform(1, self.0.global_points)
+    }
+
+    fn describe(&self) -> String {
+        let settings = self.0;
+        format!(
+            "one segment of {} points, at most {}",
+            settings.global_points, settings.max_global_points
+        )
     }
 
     fn is_last(&self, _iteration: usize, accurate: bool) -> bool {
@@ -49,7 +57,7 @@ mod tests {
             ..Settings::default()
         };
         let mesh = Mesh::uniform(2, points).unwrap();
-        Global(&settings).refine(&Assessment {
+        Law(&settings).refine(&Assessment {
             trajectory: &Discretization::sample(mesh, 1.0, 1, 0, |_, _, _| {}),
             errors: &Errors {
                 by_segment: vec![vec![1e-9], vec![error]],

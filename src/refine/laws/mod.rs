@@ -5,27 +5,32 @@
 //! | `adaptive` | the paper's: segments divided or degrees raised, eq. (29) to (32) |
 //! | `global` | the degree raised everywhere |
 //!
-//! A new law is a file here and a line in [`Settings::law`].
+//! A new law is a file here with its `Law`, and an entry in the list of `method`.
 
 mod adaptive;
 mod global;
 mod raise;
 
+use super::method::methods;
 use super::{Method, RefinementLaw, Settings};
 use crate::collocation::{Mesh, MeshError};
-use adaptive::Adaptive;
-use global::Global;
+
+macro_rules! choose {
+    ($($(#[$doc:meta])* $variant:ident, $file:ident, $name:literal, $title:literal;)*) => {
+        impl Settings {
+            /// The law that these settings ask for.
+            pub fn law(&self) -> Box<dyn RefinementLaw + '_> {
+                match self.method {
+                    $(Method::$variant => Box::new($file::Law(self)),)*
+                }
+            }
+        }
+    };
+}
+methods!(choose);
 
 impl Settings {
-    /// The law that these settings ask for.
-    pub fn law(&self) -> Box<dyn RefinementLaw + '_> {
-        match self.method {
-            Method::Adaptive => Box::new(Adaptive(self)),
-            Method::Global => Box::new(Global(self)),
-        }
-    }
-
-    /// The first mesh of that law.
+    /// The first mesh of the law.
     ///
     /// # Errors
     /// [`MeshError`] where a count is zero.

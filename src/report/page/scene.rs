@@ -30,12 +30,12 @@ pub(super) struct Scene {
     balls: Vec<(usize, f64)>,
     /// Edges of boxes that are kept apart.
     boxes: Vec<[usize; 2]>,
-    motions: Vec<Motion>,
+    motions: Vec<Playback>,
 }
 
 /// One motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct Motion {
+struct Playback {
     title: String,
     /// Points of every frame, three coordinates each, m.
     frames: Vec<Vec<f64>>,
@@ -52,7 +52,7 @@ impl Scene {
         let skeleton = Skeleton::new(robot, &problem.limits.keep_out);
         let duration = motions.iter().filter_map(|(_, rows)| rows.t.last()).next();
         let duration = duration.copied().unwrap_or(0.0);
-        let mut motions: Vec<Motion> = motions
+        let mut motions: Vec<Playback> = motions
             .iter()
             .map(|(title, rows)| skeleton.motion(title, rows))
             .collect();
@@ -200,10 +200,10 @@ impl<'a> Skeleton<'a> {
         self.corners.len() + 1 + j
     }
 
-    fn motion(&self, title: &str, rows: &Trajectory) -> Motion {
+    fn motion(&self, title: &str, rows: &Trajectory) -> Playback {
         let start = Pose::of(self, rows, 0);
         let mut bodies = Bodies::new(self.robot);
-        let mut motion = Motion {
+        let mut motion = Playback {
             title: title.into(),
             frames: Vec::with_capacity(rows.t.len()),
             turned: Vec::with_capacity(rows.t.len()),

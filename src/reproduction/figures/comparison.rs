@@ -1,6 +1,6 @@
 //! Figure 6: base and joints under the methods compared.
 
-use super::{Case, Motion, Sample};
+use super::{Case, Sample, Sampler};
 use crate::plot::{Axis, Chart, Colour, Figure, Marker, Series, Stroke, Width};
 
 /// Measurements of Section IV.B.
@@ -50,7 +50,7 @@ pub fn comparison(cases: &[(&str, &Case)]) -> Option<Figure> {
         } else {
             colours[k % 2]
         };
-        let samples = Motion::new(case)?.samples();
+        let samples = Sampler::new(case)?.samples();
         let t: Vec<f64> = samples.iter().map(|sample| sample.t).collect();
         let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
             let y: Vec<f64> = samples.iter().map(value).collect();

@@ -1,6 +1,6 @@
 //! What a planar motion comes to, in the figures that the paper gives.
 
-use super::{Case, Motion, Sample};
+use super::{Case, Sample, Sampler};
 use serde::Serialize;
 
 /// Extremes of a planar motion; angles in degrees, lengths in cm.
@@ -25,7 +25,7 @@ pub struct Extremes {
 impl Extremes {
     /// Those of `case`; `None` where its motion is not planar.
     pub fn of(case: &Case) -> Option<Self> {
-        let samples = Motion::new(case)?.samples();
+        let samples = Sampler::new(case)?.samples();
         let (first, last) = (samples.first()?, samples.last()?);
         let largest = |value: &dyn Fn(&Sample) -> f64| {
             samples

@@ -7,14 +7,14 @@
 mod comparison;
 mod errors;
 mod extremes;
-mod motion;
+mod sampler;
 mod sequence;
 mod states;
 
 pub use comparison::comparison;
 pub use errors::{errors, worst};
 pub use extremes::Extremes;
-pub use motion::{Motion, Sample};
+pub use sampler::{Sample, Sampler};
 pub use sequence::sequence;
 pub use states::states;
 
@@ -107,6 +107,8 @@ pub struct Drawn {
 /// All figures, in the paper's order.
 pub fn all(plans: &Plans, bounded: &Case) -> Vec<Drawn> {
     let mut drawn = Vec::new();
+    let published = &plans.cases[0].problem;
+    let described = |case: &Case| described(case, published);
     let mut add = |name: String, caption: String, figure: Option<Figure>| {
         drawn.extend(figure.map(|figure| Drawn {
             name,
@@ -183,11 +185,15 @@ pub fn all(plans: &Plans, bounded: &Case) -> Vec<Drawn> {
     drawn
 }
 
-/// The case in a caption.
-fn described(case: &Case) -> String {
-    if case.name == "heavy-base" {
-        let spin = case.problem.robot.base().inertia.rotational()[(2, 2)];
-        return format!("heavy-base case (as published, but with a base of {spin} kg m²)");
+/// The case in a caption, with what differs from the `published` one.
+fn described(case: &Case, published: &Problem) -> String {
+    let spin = |problem: &Problem| problem.robot.base().inertia.rotational()[(2, 2)];
+    let own = spin(&case.problem);
+    if own != spin(published) {
+        return format!(
+            "{} case (as published, but with a base of {own} kg m²)",
+            case.name
+        );
     }
     let bound = case.problem.limits.base_attitude.first();
     match bound.filter(|bound| !bound.is_free()) {

@@ -1,6 +1,6 @@
 //! Figures 4 and 5: the arm and its base at several times, to scale.
 
-use super::{Case, Motion, Sample};
+use super::{Case, Sample, Sampler};
 use crate::plot::{Axis, Chart, Colour, Figure, Shape, Stroke, Width};
 
 /// Pictures of a sequence, evenly over the duration.
@@ -10,9 +10,9 @@ const PICTURES: usize = 6;
 ///
 /// The base is drawn as a square that reaches to the first joint.
 pub fn sequence(case: &Case, method: &str) -> Option<Figure> {
-    let mut motion = Motion::new(case)?;
+    let mut sampler = Sampler::new(case)?;
     let samples: Vec<Sample> = (0..PICTURES)
-        .map(|k| motion.at(k as f64 / (PICTURES - 1) as f64))
+        .map(|k| sampler.at(k as f64 / (PICTURES - 1) as f64))
         .collect();
     let first = &samples[0];
     let [base, joint] = [first.skeleton[0], *first.skeleton.get(1)?];

@@ -1,12 +1,12 @@
 //! Figure 2: trajectories of base and joints.
 
-use super::{Case, Motion, Sample};
+use super::{Case, Sample, Sampler};
 use crate::ocp::Interval;
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Width};
 
 /// The three panels of figure 2 for one case; `None` where the motion is not planar.
 pub fn states(case: &Case) -> Option<Figure> {
-    let samples = Motion::new(case)?.samples();
+    let samples = Sampler::new(case)?.samples();
     let problem = &case.problem;
     let mesh = &case.trajectory;
     let inner = mesh.mesh.breakpoints();

@@ -2,6 +2,7 @@
 
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
+use crate::largest::largest;
 use crate::ocp::{Interval, Limited};
 use crate::planner::LimitFinding;
 use crate::problem::{LimitId, Problem, Unit};
@@ -97,7 +98,7 @@ impl Values {
             Limited::Path(p) => column(&self.path, p),
             Limited::Terminal(i) => one(self.states[self.states.len() - 1][i]),
             Limited::Boundary(b) => one(self.boundary[b]),
-            Limited::Passed(w, i) => one(self.way_points[w].0[i]),
+            Limited::WayPointState(w, i) => one(self.way_points[w].0[i]),
             Limited::WayPoint(w, r) => one(self.way_points[w].1[r]),
         }
     }
@@ -118,7 +119,7 @@ fn rotations<Sp: Space>(
                 .sqrt()
         })
         .collect();
-    let largest = turned.iter().copied().fold(0.0, f64::max);
+    let largest = largest(turned.iter().copied());
     let limits = &problem.limits;
     [
         (LimitId::BaseAttitude, &limits.base_attitude, largest),

@@ -88,7 +88,7 @@ impl<Sp: Space> Field<'_, Sp> {
 /// A posture on a path: arc length from the start of its leg, joint positions, and the direction
 /// in which the path goes on.
 #[derive(Debug, Clone)]
-pub(super) struct Waymark {
+pub(super) struct PathPoint {
     pub s: f64,
     pub q: Vec<f64>,
     pub tangent: Vec<f64>,
@@ -99,7 +99,7 @@ pub(super) struct Waymark {
 pub(super) struct Leg<'a, Sp: Space> {
     pub field: Field<'a, Sp>,
     /// At least one.
-    pub marks: Vec<Waymark>,
+    pub marks: Vec<PathPoint>,
     /// Arc length, rad.
     pub length: f64,
 }
@@ -109,29 +109,29 @@ impl<'a, Sp: Space> Leg<'a, Sp> {
         let tangent = field.tangent(&q, data);
         Self {
             field,
-            marks: vec![Waymark { s: 0.0, q, tangent }],
+            marks: vec![PathPoint { s: 0.0, q, tangent }],
             length: 0.0,
         }
     }
 
-    pub fn last(&self) -> &Waymark {
+    pub fn last(&self) -> &PathPoint {
         &self.marks[self.marks.len() - 1]
     }
 
     /// The posture `h` of arc length beyond the last mark.
-    pub fn ahead(&self, h: f64, data: &mut Data<Sp, f64>) -> Waymark {
+    pub fn ahead(&self, h: f64, data: &mut Data<Sp, f64>) -> PathPoint {
         let last = self.last();
         let field = self.field.towards(&last.tangent);
         let q = field.step(&last.q, h, data);
         let tangent = field.tangent(&q, data);
-        Waymark {
+        PathPoint {
             s: last.s + h,
             q,
             tangent,
         }
     }
 
-    pub fn push(&mut self, mark: Waymark) {
+    pub fn push(&mut self, mark: PathPoint) {
         self.length = mark.s;
         self.marks.push(mark);
     }

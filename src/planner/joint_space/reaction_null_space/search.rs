@@ -1,7 +1,7 @@
 //! How far towards the goal joint paths lead along which the base does not turn.
 
 use super::coupling::{Coupling, dot};
-use super::path::{Field, Heading, Leg, Waymark, distance};
+use super::path::{Field, Heading, Leg, PathPoint, distance};
 use crate::dynamics::space::Space;
 use crate::dynamics::{Data, Tree};
 use crate::ocp::Interval;
@@ -138,7 +138,7 @@ impl<'a, Sp: Space> Search<'a, Sp> {
 
     /// Ends a leg where the distance from the goal is least, around its mark `k`.
     fn cut_at_nearest(&mut self, leg: &mut Leg<'a, Sp>, k: usize) {
-        let nearing = |mark: &Waymark, goal: &[f64]| -> bool {
+        let nearing = |mark: &PathPoint, goal: &[f64]| -> bool {
             let left: Vec<f64> = goal.iter().zip(&mark.q).map(|(g, q)| g - q).collect();
             dot(&left, &mark.tangent) > 0.0
         };
@@ -250,7 +250,7 @@ impl<'a, Sp: Space> Search<'a, Sp> {
     }
 
     /// The last posture within the limits, less than `h` beyond the last mark.
-    fn up_to_limit(&mut self, leg: &Leg<'a, Sp>, h: f64, locked: &[bool]) -> Waymark {
+    fn up_to_limit(&mut self, leg: &Leg<'a, Sp>, h: f64, locked: &[bool]) -> PathPoint {
         let (mut low, mut high) = (0.0, h);
         while high - low > 1e-3 * AT_LIMIT {
             let middle = 0.5 * (low + high);

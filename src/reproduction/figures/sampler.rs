@@ -27,14 +27,14 @@ pub struct Sample {
 
 /// The motion of a planar plan at any time, from the polynomials of its segments.
 #[derive(Debug)]
-pub struct Motion<'a> {
+pub struct Sampler<'a> {
     case: &'a Case,
     system: FreeFloating<Planar>,
     joints: Vec<Mount<Planar>>,
     data: Data<Planar, f64>,
 }
 
-impl<'a> Motion<'a> {
+impl<'a> Sampler<'a> {
     /// The motion of `case`; `None` where it is not planar.
     pub fn new(case: &'a Case) -> Option<Self> {
         let system = FreeFloating::planar(&case.problem)?;
