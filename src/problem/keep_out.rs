@@ -34,13 +34,13 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Balls that it is made of, one after the other along its length: centre and radius, m; none
-    /// of a box.
-    pub fn balls(&self) -> Vec<([f64; 3], f64)> {
+    /// The sphere whose sweep from the first centre to the second it is, with its radius, m; the
+    /// centres of a sphere are the same. None of a box.
+    pub fn swept_sphere(&self) -> Option<([[f64; 3]; 2], f64)> {
         match self {
-            Self::Sphere { center, radius } => vec![(*center, *radius)],
-            Self::Capsule { ends, radius } => ends.map(|end| (end, *radius)).to_vec(),
-            Self::Box { .. } => Vec::new(),
+            Self::Sphere { center, radius } => Some(([*center; 2], *radius)),
+            Self::Capsule { ends, radius } => Some((*ends, *radius)),
+            Self::Box { .. } => None,
         }
     }
 
@@ -145,7 +145,7 @@ impl fmt::Display for Shape {
                 let (length, radius) = (centimetres((b - a).norm()), centimetres(*radius));
                 write!(
                     f,
-                    "a capsule of {length} cm, {radius} cm thick around its axis"
+                    "a capsule around an axis of {length} cm, radius {radius} cm"
                 )
             }
             Self::Box { half, .. } => {

@@ -98,12 +98,16 @@
     for (const [a, b] of edges) stroke([start[a], start[b]], colours.start, 1, [4, 4]);
 
     for (const [a, b] of scene.boxes) stroke([frame[a], frame[b]], colours.apart, 1, [2, 3]);
-    for (const [k, radius] of scene.balls) {
+    for (const [[a, b], radius] of scene.swept_spheres) {
+      const [[ax, ay], [bx, by]] = [frame[a], frame[b]];
+      const axis = Math.atan2(by - ay, bx - ax);
       pen.setLineDash([2, 3]);
       pen.strokeStyle = colours.apart;
       pen.lineWidth = 1;
       pen.beginPath();
-      pen.arc(frame[k][0], frame[k][1], scale * radius, 0, 2 * Math.PI);
+      pen.arc(ax, ay, scale * radius, axis + Math.PI / 2, axis + 1.5 * Math.PI);
+      pen.arc(bx, by, scale * radius, axis - Math.PI / 2, axis + Math.PI / 2);
+      pen.closePath();
       pen.stroke();
       pen.setLineDash([]);
     }

@@ -26,8 +26,9 @@ pub(super) struct Scene {
     joints: Vec<usize>,
     /// Points of a frame at the ends of arms.
     tips: Vec<usize>,
-    /// Points of a frame at the centres of spheres that are kept apart, with their radii, m.
-    balls: Vec<(usize, f64)>,
+    /// Spheres and capsules that are kept apart: points of a frame at the ends of the axis, radius
+    /// in m.
+    swept_spheres: Vec<([usize; 2], f64)>,
     /// Edges of boxes that are kept apart.
     boxes: Vec<[usize; 2]>,
     motions: Vec<Playback>,
@@ -75,7 +76,7 @@ impl Scene {
                 .map(|j| skeleton.joint(j))
                 .collect(),
             tips: skeleton.tips.clone(),
-            balls: skeleton.balls.clone(),
+            swept_spheres: skeleton.swept_spheres.clone(),
             boxes: skeleton.boxes.clone(),
             motions,
         }
@@ -94,7 +95,7 @@ impl Scene {
 
     /// Whether anything is kept apart.
     pub fn keeps_apart(&self) -> bool {
-        !(self.balls.is_empty() && self.boxes.is_empty())
+        !(self.swept_spheres.is_empty() && self.boxes.is_empty())
     }
 
     /// As JSON that may stand in a script element.
@@ -107,7 +108,7 @@ impl Scene {
 }
 
 /// Corners of the base, the base's origin, every joint, then what is attached to bodies: the ends of
-/// arms, spheres and boxes.
+/// arms, spheres, capsules and boxes.
 struct Skeleton<'a> {
     robot: &'a Model,
     /// From inertial axes to those of the picture.
@@ -116,7 +117,7 @@ struct Skeleton<'a> {
     corners: Vec<Vector3<f64>>,
     links: Vec<[usize; 2]>,
     tips: Vec<usize>,
-    balls: Vec<(usize, f64)>,
+    swept_spheres: Vec<([usize; 2], f64)>,
     boxes: Vec<[usize; 2]>,
     attached: Vec<Attached>,
 }
@@ -138,7 +139,7 @@ impl<'a> Skeleton<'a> {
             corners,
             links: Vec::new(),
             tips: Vec::new(),
-            balls: Vec::new(),
+            swept_spheres: Vec::new(),
             boxes: Vec::new(),
             attached: Vec::new(),
         };
@@ -168,12 +169,9 @@ impl<'a> Skeleton<'a> {
     fn solid(&mut self, solid: &Solid) {
         let corners = solid.shape.corners().into_iter().map(Vector3::from);
         self.cuboid(solid.joint, corners.collect());
-        let mut last = None;
-        for (center, radius) in solid.shape.balls() {
-            let centre = self.attach((solid.joint, center.into()));
-            self.balls.push((centre, radius));
-            self.boxes.extend(last.map(|last| [last, centre]));
-            last = Some(centre);
+        if let Some((centers, radius)) = solid.shape.swept_sphere() {
+            let centers = centers.map(|center| self.attach((solid.joint, center.into())));
+            self.swept_spheres.push((centers, radius));
         }
     }
 

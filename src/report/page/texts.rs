@@ -149,10 +149,7 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
         )),
     }
     for goal in &solution.goals {
-        let gaps = [
-            goal.distance.map(|gap| format!("{:.1e} cm", 100.0 * gap)),
-            goal.angle.map(|gap| format!("{:.1e}°", gap.to_degrees())),
-        ];
+        let gaps = [goal.distance.map(centimetres), goal.angle.map(degrees)];
         let gaps: Vec<String> = gaps.into_iter().flatten().collect();
         facts.push(Fact::new(
             &goal.key,
