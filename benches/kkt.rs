@@ -277,7 +277,7 @@ fn main() {
             .edited(|problem| {
                 problem.mesh.segments = segments;
                 problem.mesh.points = points;
-                problem.mesh.max_iterations = 1;
+                problem.mesh.max_iterations = Some(1);
             })
             .expect("a valid problem");
         let (plan, systems) = record(|| Planner::new().plan(&problem));

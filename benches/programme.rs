@@ -68,7 +68,7 @@ fn bench_derivatives(c: &mut Criterion, name: &str, mut nlp: impl Nlp) {
 fn plans(c: &mut Criterion) {
     let refined = problems::relaxed();
     let single = refined
-        .edited(|single| single.mesh.max_iterations = 1)
+        .edited(|single| single.mesh.max_iterations = Some(1))
         .expect("a valid problem");
     let mut group = c.benchmark_group("table1-relaxed");
     group.sample_size(20);

@@ -30,7 +30,7 @@ fn iteration(problem: &Problem, mesh: Mesh) -> [f64; 3] {
     let n = problem.robot.joint_count();
     let system = FreeFloating::spatial(problem);
     let settings = Settings {
-        max_iterations: 1,
+        max_iterations: Some(1),
         ..Settings::default()
     };
     let mut solver = nlp::Settings::default();

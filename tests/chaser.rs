@@ -102,7 +102,7 @@ fn every_description_of_the_attitude_gives_the_same_plan() {
         .unwrap()
         .problem
         .edited(|problem| {
-            problem.mesh.max_iterations = 1;
+            problem.mesh.max_iterations = Some(1);
             problem.mesh.segments = 10;
         })
         .unwrap();
@@ -133,7 +133,7 @@ fn plans_do_not_depend_on_the_number_of_threads() {
         .problem
         .edited(|problem| {
             (problem.mesh.segments, problem.mesh.points) = (12, 5);
-            problem.mesh.max_iterations = 1;
+            problem.mesh.max_iterations = Some(1);
         })
         .unwrap();
     let plan = |threads| {

@@ -56,7 +56,7 @@ fn a_base_that_pitches_to_the_singularity_is_told_of() {
     let mut problem = Problem::builder("pitching", trees::chain(3, 12), 8.0, &[0.0; 3], &[0.1; 3]);
     problem.cost.joint_rate = vec![1.0; 3];
     problem.cost.control = vec![0.1; 3];
-    problem.mesh.max_iterations = 1;
+    problem.mesh.max_iterations = Some(1);
     problem.solver.max_iterations = 60;
     let problem = problem.build().unwrap();
     let calm = plan(&problem).unwrap();
@@ -165,7 +165,7 @@ fn a_base_that_turns_over_by_roll_pitch_yaw() {
     // The rates of roll and yaw run into the limit that the base itself is far from.
     let problem = tumbling(SpatialAttitude::RollPitchYaw)
         .edited(|problem| {
-            problem.mesh.max_iterations = 1;
+            problem.mesh.max_iterations = Some(1);
             problem.mesh.segments = 8;
             problem.mesh.points = 4;
         })

@@ -2,12 +2,15 @@
 
 mod problems;
 
+use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Status, plan};
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::reproduction::bounds::{Connection, Grid};
 use std::f64::consts::PI;
+use std::path::Path;
+use std::time::Duration;
 
 #[test]
 fn the_published_case_names_the_base_attitude_and_the_smallest_bound() {
@@ -192,4 +195,47 @@ fn loops_within_the_joint_limits_gain_little() {
     };
     let around = edge(1, -half) + edge(0, half) - edge(1, half) - edge(0, -half);
     assert!((fine.box_loop - around).abs() < 1e-4, "{fine:?}, {around}");
+}
+
+/// The problem of one joint, with `key` of its limits at so many radians.
+fn one_joint(key: &str, bound: f64) -> Problem {
+    let mut overrides = Overrides::default();
+    overrides.set(&format!("limits.{key}={bound:e}")).unwrap();
+    let path = Path::new("tests/data/one-joint/problem.toml");
+    ProblemFile::load(path, &overrides).unwrap().problem
+}
+
+#[test]
+fn the_bound_of_one_joint_is_what_momentum_asks_and_works() {
+    // On one mesh a motion between the points does with 2.13°, and on finer ones the cost grows
+    // without end: neither is a motion.
+    for key in ["base_attitude", "final_base_attitude"] {
+        let found = plan(&one_joint(key, 0.0)).unwrap();
+        assert_eq!(found.status, Status::Infeasible, "{key}");
+        let diagnosis = found.diagnosis.expect("a diagnosis");
+        assert!(diagnosis.converged, "{}", diagnosis.summary);
+        let [limit] = &diagnosis.limits[..] else {
+            panic!("{}", diagnosis.summary);
+        };
+        let bound = limit.smallest_bound.upper;
+        assert!(
+            (bound.to_degrees() - 4.332_97).abs() < 4e-3,
+            "{}",
+            diagnosis.summary
+        );
+        let again = plan(&one_joint(key, 1.01 * bound)).unwrap();
+        assert_eq!(again.status, Status::Solved, "{key}: {:?}", again.diagnosis);
+    }
+}
+
+#[test]
+fn the_diagnosis_keeps_the_time_it_was_given() {
+    let problem = problems::published()
+        .edited(|problem| problem.solver.time_limit = Some(Duration::from_nanos(1)))
+        .unwrap();
+    let plan = plan(&problem).unwrap();
+    assert_eq!(plan.status, Status::NotConverged);
+    assert_eq!(plan.iterations.len(), 1);
+    let warned = plan.warnings.iter().any(|text| text.contains("time limit"));
+    assert!(warned, "{:?}", plan.warnings);
 }

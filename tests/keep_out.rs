@@ -14,7 +14,7 @@ fn swing() -> Problem {
     problem.limits.joint_position = vec![Interval::symmetric(2.8); 2];
     problem.mesh.tolerance = 1e-3;
     problem.mesh.segments = 20;
-    problem.mesh.max_iterations = 15;
+    problem.mesh.max_iterations = Some(15);
     problem.build().unwrap()
 }
 
@@ -95,7 +95,7 @@ fn slipping_through_between_points_is_no_solution() {
     problem.mesh.tolerance = 10.0;
     problem.mesh.segments = 4;
     problem.mesh.points = 4;
-    problem.mesh.max_iterations = 1;
+    problem.mesh.max_iterations = Some(1);
     let coarse = solve(&problem);
     assert_eq!(coarse.status, Status::NotConverged);
     assert!(coarse.max_error < problem.mesh.tolerance);
@@ -197,7 +197,7 @@ fn into_a_sphere(radius: f64) -> Problem {
     problem.limits.keep_out = off("wall", 0.0, Solid::sphere(None, [1.4, 0.0, 0.0], radius));
     problem.mesh.segments = 4;
     problem.mesh.points = 4;
-    problem.mesh.max_iterations = 1;
+    problem.mesh.max_iterations = Some(1);
     problem.build().unwrap()
 }
 
@@ -231,7 +231,7 @@ fn a_passage_that_is_too_narrow_is_named_with_a_clearance_that_works() {
         problem.limits.keep_out = off("ring", 0.02, Solid::sphere(None, [0.6, 0.0, 0.0], radius));
         problem.limits.joint_position = vec![Interval::symmetric(1.6); 2];
         problem.mesh.segments = 10;
-        problem.mesh.max_iterations = 3;
+        problem.mesh.max_iterations = Some(3);
         problem.build().unwrap()
     };
     let plan = plan(&ring(0.8)).unwrap();
@@ -263,7 +263,7 @@ fn a_link_is_kept_off_along_its_whole_length() {
         first: forearm,
         second: mast,
     }];
-    problem.mesh.max_iterations = 25;
+    problem.mesh.max_iterations = Some(25);
     let plan = solve(&problem);
     assert_eq!(plan.status, Status::Solved, "{:?}", plan.warnings);
     let nearest = joints(&plan).into_iter().map(|q| {

@@ -29,7 +29,7 @@ fn refined(segments: usize, points: usize, tolerance: f64, max_iterations: usize
         segments,
         points,
         tolerance,
-        max_iterations,
+        max_iterations: Some(max_iterations),
         ..Settings::default()
     }
 }

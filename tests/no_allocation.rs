@@ -16,7 +16,7 @@ fn counts(name: &str, overrides: &[&str], count: usize) -> Vec<[usize; 2]> {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.into()).collect();
     let file = ProblemFile::load(Path::new(&path), &Overrides::of(&overrides).unwrap()).unwrap();
     let problem = file.problem;
-    let mut meshes = Vec::with_capacity(problem.mesh.max_iterations);
+    let mut meshes = Vec::with_capacity(problem.mesh.max_iterations.unwrap_or(40));
     let mut monitor = |event: &Event<'_>| {
         if let Event::Refinement(refine::Event::Solver(progress)) = event {
             let now = allocations::of_all_threads();

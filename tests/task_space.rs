@@ -363,7 +363,7 @@ fn one_planner_serves_problems_with_and_without_way_points() {
     let mut planner = Planner::new();
     let mut problem = two_link()
         .edited(|problem| {
-            problem.mesh.max_iterations = 1;
+            problem.mesh.max_iterations = Some(1);
             problem.mesh.tolerance = 1.0;
         })
         .unwrap();

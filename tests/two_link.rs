@@ -33,7 +33,7 @@ fn straight_joint_path_is_the_same_in_space() {
 #[test]
 fn first_mesh_of_the_relaxed_case() {
     let problem = problems::relaxed()
-        .edited(|problem| problem.mesh.max_iterations = 1)
+        .edited(|problem| problem.mesh.max_iterations = Some(1))
         .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::NotConverged);

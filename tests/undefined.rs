@@ -66,7 +66,7 @@ fn coarse(max_iterations: usize) -> Settings {
     Settings {
         segments: 2,
         points: 1,
-        max_iterations,
+        max_iterations: Some(max_iterations),
         ..Settings::default()
     }
 }

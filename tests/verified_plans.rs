@@ -70,7 +70,7 @@ fn a_planner_keeps_nothing_that_wider_bounds_make_wrong() {
         let change = |problem: &mut ProblemBuilder| {
             problem.limits.base_attitude[1] = Interval::symmetric(pitch);
             problem.limits.final_base_attitude[1] = Interval::symmetric(pitch);
-            problem.mesh.max_iterations = 1;
+            problem.mesh.max_iterations = Some(1);
         };
         problem.edited(change).unwrap()
     };

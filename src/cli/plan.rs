@@ -27,6 +27,9 @@ pub(super) struct Arguments {
     /// Tolerance on the largest error, instead of the problem file's
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
+    /// Limit on the time of planning, its diagnosis included; the best trajectory until then is written
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    time_limit: Option<f64>,
     /// Value for any key of the problem file, as TOML
     #[arg(long, value_name = "key.path=value")]
     set: Vec<String>,
@@ -78,6 +81,10 @@ impl Arguments {
                 "mesh.tolerance",
                 tolerance,
             );
+        }
+        if let Some(limit) = self.time_limit {
+            let flag = format!("--time-limit {limit:?}");
+            overrides.number(&flag, "solver.time_limit", limit);
         }
         Ok(overrides)
     }

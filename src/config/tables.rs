@@ -12,6 +12,7 @@ use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::problem::{ComponentKind, Cost, CostId, LimitId, Limits, Momentum, Task};
 use crate::refine::{self, Method};
+use std::time::Duration;
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish.
 const MOST: usize = 100_000;
@@ -207,7 +208,6 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
     for (name, value, most) in [
         ("segments", &mut mesh.segments, MOST),
         ("points", &mut mesh.points, MOST_POINTS),
-        ("max_iterations", &mut mesh.max_iterations, MOST),
         ("max_points", &mut mesh.max_points, MOST_POINTS),
         (
             "max_global_points",
@@ -219,6 +219,9 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         if let Some(item) = section.get(name) {
             *value = item.count(most)?;
         }
+    }
+    if let Some(item) = section.get("max_iterations") {
+        mesh.max_iterations = Some(item.count(MOST)?);
     }
     for (name, value) in [
         ("tolerance", &mut mesh.tolerance),
@@ -242,12 +245,23 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
 
 /// `[solver]`.
 pub(super) fn solver(item: &Item<'_>, solver: &mut nlp::Settings) -> Result<(), ConfigError> {
-    let section = item.section(&["tolerance", "max_iterations", "linear_solver", "options"])?;
+    let section = item.section(&[
+        "tolerance",
+        "max_iterations",
+        "time_limit",
+        "linear_solver",
+        "options",
+    ])?;
     if let Some(item) = section.get("tolerance") {
         solver.tolerance = item.positive("a finite number above zero")?;
     }
     if let Some(item) = section.get("max_iterations") {
         solver.max_iterations = item.count(i32::MAX as usize)? as u32;
+    }
+    if let Some(item) = section.get("time_limit") {
+        let expected = "a finite time above zero, s";
+        let limit = Duration::try_from_secs_f64(item.positive(expected)?);
+        solver.time_limit = Some(limit.map_err(|_| item.unexpected(expected))?);
     }
     if let Some(item) = section.get("linear_solver") {
         let expected = "\"auto\", \"multifrontal\", or Ipopt's name of a linear solver";

@@ -9,12 +9,14 @@
 pub mod ipopt;
 pub mod kkt;
 
+mod deadline;
 mod iterate;
 mod linear_solver;
 mod problem;
 mod settings;
 mod solution;
 
+pub use deadline::Deadline;
 pub use iterate::Iterate;
 pub use linear_solver::LinearSolver;
 pub use problem::{Nlp, Size, Undefined};

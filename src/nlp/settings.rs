@@ -1,6 +1,7 @@
 //! Settings of one solve.
 
 use super::LinearSolver;
+use std::time::Duration;
 
 /// The value of a solver option given by name.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +30,9 @@ pub struct Settings {
     pub tolerance: f64,
     /// Limit on iterations. Default 500.
     pub max_iterations: u32,
+    /// Limit on the wall time of all that is done with these settings: one solve, a refinement or a
+    /// whole plan with its diagnosis. It is looked at after each iteration. Default `None`.
+    pub time_limit: Option<Duration>,
     /// Linear solver. Default [`LinearSolver::Auto`].
     pub linear_solver: LinearSolver,
     /// Start from the multipliers of the starting iterate as well, with this barrier
@@ -47,6 +51,7 @@ impl Default for Settings {
         Self {
             tolerance: 1e-9,
             max_iterations: 500,
+            time_limit: None,
             linear_solver: LinearSolver::Auto,
             warm_start: None,
             print_level: 0,

@@ -82,6 +82,9 @@ pub struct Starts {
 pub struct Diagnosis {
     /// The limits that cannot hold, those relaxed together.
     pub limits: Vec<LimitFinding>,
+    /// Whether the motion with these limits relaxed was refined to the tolerance. Where it was not,
+    /// the bounds are those of a mesh that is too coarse, and need not work.
+    pub converged: bool,
     /// The starts that were tried.
     pub starts: Starts,
     /// One sentence for a person, in degrees and centimetres.

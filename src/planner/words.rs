@@ -5,9 +5,13 @@ use crate::ocp::Interval;
 use crate::problem::LimitId;
 use crate::system::Component;
 
-/// One sentence about what cannot hold.
-pub(super) fn cannot_hold(limits: &[LimitFinding]) -> String {
-    let verb = "cannot hold; the smallest bound that was found to work is";
+/// One sentence about what cannot hold, by a motion whose refinement `converged` or did not.
+pub(super) fn cannot_hold(limits: &[LimitFinding], converged: bool) -> String {
+    let verb = if converged {
+        "cannot hold; the smallest bound that was found to work is"
+    } else {
+        "was not found to hold; no bound that works is known, on a coarse mesh it would be"
+    };
     sentence(limits, verb)
 }
 

@@ -7,7 +7,7 @@ use super::{
     midpoint_errors, quadrature_error, violations,
 };
 use crate::largest::largest;
-use crate::nlp::{self, Control, Iterate, Progress, Statistics, Status, ipopt};
+use crate::nlp::{self, Control, Deadline, Iterate, Progress, Statistics, Status, ipopt};
 use crate::ocp::Ocp;
 use crate::transcription::{Discretization, Layout, Patterns, Transcription};
 use std::fmt;
@@ -16,6 +16,23 @@ use std::time::Instant;
 /// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
 /// below it that the first barrier problem is the last, and costs are as exact as from a cold start.
 const REFINED_BARRIER: f64 = 0.1;
+
+/// The same as a multiple of the error of the mesh before, where that is above [`ROUGH`]: far from
+/// the solution a smaller barrier keeps the iterates at the wrong bounds.
+const ERROR_BARRIER: f64 = 1e-5;
+const ROUGH: f64 = 0.1;
+
+/// Ipopt's own barrier parameter at a cold start.
+const LARGEST_BARRIER: f64 = 0.1;
+
+/// Meshes after the first on which the error may not fall for the refinement to diverge.
+const GROWING: usize = 3;
+/// Factor by which the cost then is larger at least.
+const GROWTH: f64 = 1.2;
+/// Error below which nothing diverges, in tolerances.
+const COARSE: f64 = 100.0;
+/// Error, in tolerances, above which a mesh says nothing of a motion.
+const WILD: f64 = 1e5;
 
 /// Part of its size by which a bound may be exceeded between the nodes of a mesh that counts.
 const FAR: f64 = 0.05;
@@ -64,13 +81,16 @@ pub struct Outcome {
     pub objective: f64,
     /// One record a mesh iteration; the last is that of `trajectory`.
     pub records: Vec<Record>,
-    /// Records of the mesh iterations after that one. They were tried for the sake of bounds that
-    /// are exceeded between the nodes, and did not converge.
+    /// Records of the mesh iterations after that one, which ended without a solution to be preferred:
+    /// they were tried for the sake of bounds that are exceeded between the nodes and did not
+    /// converge, or they were cut short.
     pub discarded: Vec<Record>,
     /// Whether the solve succeeded, the largest error is within the tolerance, and no bound is far
     /// exceeded between the nodes. Never where an error or a bounded row is NaN. The last record's
     /// [`Verdict`] says what is missing.
     pub converged: bool,
+    /// Whether the time limit ended the refinement before it had converged.
+    pub out_of_time: bool,
     /// The worst violation of every bound that is exceeded between the nodes by more than
     /// [`Settings::bound_tolerance`].
     pub violations: Vec<Violation>,
@@ -91,6 +111,7 @@ impl Outcome {
     fn preferred_to(self, later: Self) -> Self {
         Self {
             discarded: later.records[self.records.len()..].to_vec(),
+            out_of_time: later.out_of_time && !self.converged,
             statistics: Statistics {
                 barrier: self.statistics.barrier,
                 primal_infeasibility: self.statistics.primal_infeasibility,
@@ -112,6 +133,12 @@ struct Solved {
     nlp_iterations: u32,
 }
 
+/// What the mesh before leaves to the next.
+struct Previous {
+    solved: Solved,
+    errors: Errors,
+}
+
 /// What a solution is worth.
 struct Assessed {
     errors: Errors,
@@ -120,8 +147,6 @@ struct Assessed {
     /// Those of `outside` that another mesh can mend.
     removable: Vec<Vec<Violation>>,
     verdict: Verdict,
-    /// Whether the largest error is within the tolerance.
-    accurate: bool,
 }
 
 /// One problem with its settings, ready to be solved on a sequence of meshes.
@@ -179,8 +204,10 @@ impl<O: Ocp> Refinement<'_, O> {
     /// states exceeds its bounds between the nodes; should a mesh for the sake of the latter fail,
     /// the last one that converged counts.
     ///
-    /// The monitor is told of each step and can stop the loop. A failed solve ends it; the
-    /// outcome then holds the last trajectory all the same.
+    /// The monitor is told of each step and can stop the loop, and so does the solver's time limit,
+    /// which is one for all meshes together. Where they cut a solve short, the last mesh that was
+    /// solved counts. A failed solve ends the loop; the outcome then holds the last trajectory all
+    /// the same.
     ///
     /// # Errors
     /// What the solver refuses before it begins.
@@ -193,11 +220,12 @@ impl<O: Ocp> Refinement<'_, O> {
         monitor: &mut dyn FnMut(Event<'_>) -> Control,
     ) -> Result<Outcome, ipopt::IpoptError> {
         let law = self.settings.law();
+        let deadline = Deadline::after(self.solver.time_limit);
         let mut records: Vec<Record> = Vec::new();
         let mut statistics = Statistics::default();
         let mut trajectory = self.at_way_points(&start.trajectory);
-        let mut previous: Option<Solved> = None;
-        let mut converged: Option<Outcome> = None;
+        let mut previous: Option<Previous> = None;
+        let mut best: Option<Outcome> = None;
         loop {
             let began = Instant::now();
             let iteration = records.len() + 1;
@@ -208,8 +236,9 @@ impl<O: Ocp> Refinement<'_, O> {
             };
             let stopped = monitor(event) == Control::Stop;
             let mut program = Transcription::new(self.ocp, self.patterns, trajectory.mesh.clone());
-            let (settings, iterate) =
+            let (mut settings, iterate) =
                 self.warm_start(&program, &trajectory, previous.as_ref(), start);
+            settings.time_limit = deadline.remaining();
             let solved =
                 self.solve(&mut program, settings, iterate, &mut statistics, &mut |p| {
                     if stopped {
@@ -219,12 +248,21 @@ impl<O: Ocp> Refinement<'_, O> {
                     }
                 })?;
             let assessed = self.assess(&solved);
-            let last = !solved.status.is_solved() || law.is_last(iteration, assessed.accurate);
-            let next = (!last)
-                .then(|| refined(&*law, &solved, &assessed))
+            records.push(self.record(&solved, &assessed, began));
+            if self.diverges(&records) {
+                records[iteration - 1].verdict = Verdict::Diverging;
+            }
+            let ended = !solved.status.is_solved()
+                || records[iteration - 1].verdict == Verdict::Diverging
+                || law.is_last(&records);
+            let next = (!ended)
+                .then(|| refined(&*law, &solved, &assessed, previous.as_ref()))
                 .flatten();
-            records.push(self.record(&solved, &assessed, next.as_ref(), began));
+            records[iteration - 1].decisions = next
+                .as_ref()
+                .map_or_else(Vec::new, |next| next.decisions.clone());
             let halt = monitor(Event::Solved(&records[iteration - 1])) == Control::Stop;
+            let late = deadline.has_passed();
             let outcome = Outcome {
                 trajectory: solved.trajectory.clone(),
                 iterate: solved.iterate.clone(),
@@ -232,26 +270,50 @@ impl<O: Ocp> Refinement<'_, O> {
                 objective: solved.objective,
                 records: records.clone(),
                 discarded: Vec::new(),
-                converged: assessed.verdict.is_converged(),
+                converged: records[iteration - 1].verdict.is_converged(),
+                out_of_time: solved.status == Status::TimeLimit || (late && next.is_some()),
                 violations: worst_of_each(&assessed.outside, self.settings.bound_tolerance),
                 statistics,
             };
-            match next.filter(|_| !halt) {
+            match next.filter(|_| !halt && !late) {
                 Some(next) => {
                     trajectory = resample(&solved.trajectory, next.mesh);
-                    previous = Some(solved);
-                    if outcome.converged {
-                        converged = Some(outcome);
+                    previous = Some(Previous {
+                        solved,
+                        errors: assessed.errors,
+                    });
+                    if outcome.converged || best.as_ref().is_none_or(|best| !best.converged) {
+                        best = Some(outcome);
                     }
                 }
                 None => {
-                    return Ok(match converged {
-                        Some(before) if !outcome.converged => before.preferred_to(outcome),
+                    let cut_short =
+                        matches!(outcome.status, Status::Interrupted | Status::TimeLimit);
+                    return Ok(match best {
+                        Some(best) if best.converged && !outcome.converged || cut_short => {
+                            best.preferred_to(outcome)
+                        }
                         _ => outcome,
                     });
                 }
             }
         }
+    }
+
+    /// Whether no mesh has a smaller error than the first, far above the tolerance, and the cost has
+    /// grown: over several meshes, or over two where the error is larger than any motion's.
+    fn diverges(&self, records: &[Record]) -> bool {
+        let tolerance = self.settings.tolerance;
+        let wild = records[0].max_error > WILD * tolerance;
+        if records.len() <= if wild { 1 } else { GROWING } {
+            return false;
+        }
+        let growth = if wild { 2.0 } else { GROWTH };
+        let (first, later) = (&records[0], &records[1..]);
+        let rough = |record: &Record| record.max_error >= first.max_error;
+        first.max_error > COARSE * tolerance
+            && later.iter().all(rough)
+            && later[later.len() - 1].objective > growth * first.objective.abs()
     }
 
     /// Settings and starting iterate of `program`: `trajectory` with the multipliers of the mesh
@@ -260,15 +322,26 @@ impl<O: Ocp> Refinement<'_, O> {
         &self,
         program: &Transcription<'_, O>,
         trajectory: &Discretization,
-        previous: Option<&Solved>,
+        previous: Option<&Previous>,
         start: &Start,
     ) -> (nlp::Settings, Iterate) {
         let mut settings = self.solver.clone();
         let (mesh, layout) = (&trajectory.mesh, program.layout());
         let x = program.pack(trajectory);
         let iterate = match (previous, &start.iterate) {
-            (Some(old), _) => {
-                settings.warm_start = Some(REFINED_BARRIER * settings.tolerance);
+            (
+                Some(Previous {
+                    solved: old,
+                    errors,
+                }),
+                _,
+            ) => {
+                let error = errors.max();
+                settings.warm_start = Some(if error > ROUGH {
+                    (ERROR_BARRIER * error).min(LARGEST_BARRIER)
+                } else {
+                    REFINED_BARRIER * settings.tolerance
+                });
                 Duals::new(&old.trajectory.mesh, &old.layout, &old.iterate).on(mesh, layout, x)
             }
             (None, Some(saved)) if settings.warm_start.is_some() => {
@@ -298,10 +371,13 @@ impl<O: Ocp> Refinement<'_, O> {
         let mut solution = ipopt::solve(program, &settings, &iterate, monitor)?;
         statistics.add(&solution.statistics);
         let mut nlp_iterations = solution.statistics.iterations;
-        let gave_up = !solution.status.is_solved() && solution.status != Status::Interrupted;
+        let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
+        let gave_up = !solution.status.is_solved() && !stopped;
         if gave_up && settings.warm_start.take().is_some() {
             // Multipliers may mislead; the same trajectory without them has every chance of
             // a cold start.
+            let spent = solution.statistics.total;
+            settings.time_limit = settings.time_limit.map(|limit| limit.saturating_sub(spent));
             solution = ipopt::solve(program, &settings, &Iterate::primal(iterate.x), monitor)?;
             statistics.add(&solution.statistics);
             nlp_iterations += solution.statistics.iterations;
@@ -341,17 +417,10 @@ impl<O: Ocp> Refinement<'_, O> {
             outside,
             removable,
             verdict,
-            accurate,
         }
     }
 
-    fn record(
-        &self,
-        solved: &Solved,
-        assessed: &Assessed,
-        next: Option<&Refined>,
-        began: Instant,
-    ) -> Record {
+    fn record(&self, solved: &Solved, assessed: &Assessed, began: Instant) -> Record {
         let mesh = &solved.trajectory.mesh;
         let outside = assessed.outside.iter().flatten();
         Record {
@@ -367,7 +436,7 @@ impl<O: Ocp> Refinement<'_, O> {
             nlp_status: solved.status,
             verdict: assessed.verdict,
             time: began.elapsed(),
-            decisions: next.map_or_else(Vec::new, |next| next.decisions.clone()),
+            decisions: Vec::new(),
         }
     }
 
@@ -400,10 +469,16 @@ impl<O: Ocp> Refinement<'_, O> {
 }
 
 /// The next mesh by `law`.
-fn refined(law: &dyn RefinementLaw, solved: &Solved, assessed: &Assessed) -> Option<Refined> {
+fn refined(
+    law: &dyn RefinementLaw,
+    solved: &Solved,
+    assessed: &Assessed,
+    previous: Option<&Previous>,
+) -> Option<Refined> {
     law.refine(&Assessment {
         trajectory: &solved.trajectory,
         errors: &assessed.errors,
+        before: previous.map(|old| (&old.solved.trajectory.mesh, &old.errors)),
         violations: &assessed.removable,
     })
 }

@@ -1,6 +1,6 @@
 //! What a refinement law is: from the solution on one mesh to the next mesh.
 
-use super::{Decision, Errors, Violation};
+use super::{Decision, Errors, Record, Violation};
 use crate::collocation::{Mesh, MeshError};
 use crate::transcription::Discretization;
 
@@ -11,6 +11,8 @@ pub struct Assessment<'a> {
     pub trajectory: &'a Discretization,
     /// Its errors (28).
     pub errors: &'a Errors,
+    /// The mesh before with its errors, where there was one.
+    pub before: Option<(&'a Mesh, &'a Errors)>,
     /// Bounds exceeded between the nodes that another mesh can mend, by segments.
     pub violations: &'a [Vec<Violation>],
 }
@@ -35,9 +37,9 @@ pub trait RefinementLaw {
     /// The first mesh and the bounds on its refinement, in words.
     fn describe(&self) -> String;
 
-    /// Whether the mesh iteration `iteration`, counted from 1, is the last whatever its errors;
-    /// `accurate` says that these are within the tolerance.
-    fn is_last(&self, iteration: usize, accurate: bool) -> bool;
+    /// Whether the mesh iteration of the last of `records` is the last, whatever its errors; its
+    /// decisions are not taken yet. There is at least one record.
+    fn is_last(&self, records: &[Record]) -> bool;
 
     /// The next mesh, which has all breakpoints of the present one; `None` where the law can do no
     /// more.

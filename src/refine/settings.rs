@@ -17,8 +17,9 @@ pub struct Settings {
     /// Part of a bound's size by which states and path rows may exceed it between the nodes before
     /// the adaptive method refines there. Default 1e-3.
     pub bound_tolerance: f64,
-    /// Largest number of mesh iterations of the adaptive method, the first included. Default 6.
-    pub max_iterations: usize,
+    /// Largest number of mesh iterations of the adaptive method, the first included. Default
+    /// `None`: as many as it takes while the error falls.
+    pub max_iterations: Option<usize>,
     /// Largest number of LGR points in one segment of the adaptive method. Default 20.
     pub max_points: usize,
     /// λ₁ of (30). Default 2.
@@ -41,7 +42,7 @@ impl Default for Settings {
             points: 5,
             tolerance: 1e-5,
             bound_tolerance: 1e-3,
-            max_iterations: 6,
+            max_iterations: None,
             max_points: 20,
             lambda1: 2.0,
             lambda2: 3.0,
@@ -61,7 +62,7 @@ impl Settings {
         let at_least_one = [
             ("segments", self.segments),
             ("points", self.points),
-            ("max_iterations", self.max_iterations),
+            ("max_iterations", self.max_iterations.unwrap_or(1)),
             ("global_points", self.global_points),
         ];
         for (key, value) in at_least_one {

@@ -18,6 +18,9 @@ pub enum Verdict {
     AboveTolerance,
     /// A bound is far exceeded between the nodes.
     BoundExceeded,
+    /// Cost and error grow as the mesh gets finer: what solves the programme on each mesh is no
+    /// approximation of a motion.
+    Diverging,
 }
 
 impl Verdict {
@@ -36,6 +39,7 @@ impl fmt::Display for Verdict {
                 "the problem's functions are not a number somewhere between the points of the mesh"
             }
             Self::AboveTolerance => "the tolerance is not reached",
+            Self::Diverging => "cost and error grow as the mesh gets finer",
             Self::BoundExceeded => "a limit is far exceeded between the points of the mesh",
         })
     }

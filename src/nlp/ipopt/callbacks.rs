@@ -7,7 +7,7 @@
 
 use super::interrupt;
 use super::structure::{Structure, Structures};
-use crate::nlp::{Control, Evaluations, Nlp, Progress, Undefined};
+use crate::nlp::{Control, Deadline, Evaluations, Nlp, Progress, Undefined};
 use ipopt_sys::{self as ip, Bool, Index, Number, UserDataPtr};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,6 +19,7 @@ pub(super) struct Context<'a, N: Nlp + ?Sized> {
     nlp: &'a mut N,
     monitor: &'a mut dyn FnMut(&Progress) -> Control,
     structure: &'a Structures,
+    deadline: Deadline,
     /// Ipopt need not call the first point new.
     begun: bool,
     record: Record,
@@ -29,6 +30,8 @@ pub(super) struct Context<'a, N: Nlp + ?Sized> {
 pub(super) struct Record {
     /// The payload of the first panic; from then on every callback refuses.
     pub(super) panic: Option<Box<dyn Any + Send>>,
+    /// Whether the deadline ended the solve.
+    pub(super) late: bool,
     /// The last iteration.
     pub(super) last: Option<Progress>,
     /// Calls of each function.
@@ -45,11 +48,13 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
         nlp: &'a mut N,
         monitor: &'a mut dyn FnMut(&Progress) -> Control,
         structure: &'a Structures,
+        deadline: Deadline,
     ) -> Self {
         Self {
             nlp,
             monitor,
             structure,
+            deadline,
             begun: false,
             record: Record::default(),
         }
@@ -92,8 +97,9 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
         self.record.last = Some(progress);
         let monitor = &mut *self.monitor;
         let outcome = catch_unwind(AssertUnwindSafe(|| monitor(&progress) == Control::Continue));
-        let go_on = self.answer(outcome);
-        ip::from_bool(ip::is_true(go_on) && !interrupt::requested())
+        let go_on = ip::is_true(self.answer(outcome)) && !interrupt::requested();
+        self.record.late = go_on && self.deadline.has_passed();
+        ip::from_bool(go_on && !self.record.late)
     }
 
     fn answer(&mut self, outcome: Result<bool, Box<dyn Any + Send>>) -> Bool {

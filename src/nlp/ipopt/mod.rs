@@ -25,7 +25,9 @@ pub use ma97_bridge::{KktSystem, record};
 pub use probe::linear_solvers;
 pub use serial::serialised;
 
-use super::{Control, Iterate, Nlp, Progress, Settings, Size, Solution, Statistics, Status};
+use super::{
+    Control, Deadline, Iterate, Nlp, Progress, Settings, Size, Solution, Statistics, Status,
+};
 use callbacks::Context;
 use choice::Choice;
 use ma97_bridge::Session;
@@ -79,9 +81,11 @@ pub fn solve<N: Nlp + ?Sized>(
         size,
         bounds,
         structure,
+        deadline: Deadline::after(settings.time_limit),
     };
     let (first, failed) = attempt.run(&choice, monitor)?;
-    if !failed || first.status.is_solved() || first.status == Status::Interrupted {
+    let stopped = matches!(first.status, Status::Interrupted | Status::TimeLimit);
+    if !failed || first.status.is_solved() || stopped {
         return Ok(first);
     }
     let (second, _) = attempt.run(&Choice::fallback(), monitor)?;
@@ -103,6 +107,7 @@ struct Attempt<'a, N: Nlp + ?Sized> {
     size: Size,
     bounds: input::Bounds,
     structure: structure::Structures,
+    deadline: Deadline,
 }
 
 impl<N: Nlp + ?Sized> Attempt<'_, N> {
@@ -128,7 +133,7 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
         let mut iterate = input::initial(self.start, self.size, warm);
         let mut constraints = vec![f64::NAN; self.size.constraints];
         let mut objective = f64::NAN;
-        let mut context = Context::new(&mut *self.nlp, monitor, &self.structure);
+        let mut context = Context::new(&mut *self.nlp, monitor, &self.structure, self.deadline);
         let code = problem.solve(&mut iterate, &mut constraints, &mut objective, &mut context);
         let record = context.finish();
         // Ipopt closes the timing file and frees the linear solver only with the problem.
@@ -145,7 +150,10 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
         if let Some(payload) = record.panic {
             resume_unwind(payload);
         }
-        let status = status::grade(code, &choice.solver)?;
+        let status = match status::grade(code, &choice.solver)? {
+            Status::Interrupted if record.late => Status::TimeLimit,
+            status => status,
+        };
         let last = record.last;
         let failed = counted.failed || (bridged && code == ipopt_sys::Error_In_Step_Computation);
         let solution = Solution {

@@ -66,6 +66,10 @@ impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
                 jacobian[to * width + self.outer(input)] = factor * self.first[row * from + input];
             }
         }
+        let cost = (last + self.amounts + elastic) * width;
+        for (j, u) in point.u.iter().enumerate() {
+            jacobian[cost + self.outer(self.states + j)] += 2.0 * self.problem.control_weight * u;
+        }
         let own = last + self.amounts;
         for (k, bound) in self.problem.path.iter().enumerate() {
             let scale = self.problem.groups[bound.group].scale;
@@ -108,6 +112,10 @@ impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
                 hessian[self.outer(row) * width + self.outer(column)] =
                     self.second[row * from + column];
             }
+        }
+        for j in 0..self.controls {
+            let at = self.outer(self.states + j);
+            hessian[at * width + at] += 2.0 * cost[0] * self.problem.control_weight;
         }
     }
 }

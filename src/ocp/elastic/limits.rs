@@ -34,7 +34,8 @@ pub struct LimitGroup {
 }
 
 /// A problem whose chosen limits may be exceeded, each by an amount e_g ≥ 0 of its own that is
-/// to be as small as possible: minimise Σ e_g + `regularization`·(the problem's own cost).
+/// to be as small as possible: minimise Σ e_g + `regularization`·(the problem's own cost), plus
+/// a weight times ∫‖u‖² where asked.
 ///
 /// Each e_g is carried as a state that does not change, so that it couples neighbouring instants
 /// only and the transcription needs no special case.
@@ -43,6 +44,7 @@ pub struct Elastic<'a, O> {
     pub(super) inner: &'a O,
     pub(super) groups: Vec<LimitGroup>,
     pub(super) regularization: f64,
+    pub(super) control_weight: f64,
     pub(super) base: Formulation,
     /// Elastic bounds along the path: path rows beyond the inner ones.
     pub(super) path: Vec<ElasticBound<OnPath>>,
@@ -143,10 +145,20 @@ impl<'a, O: Ocp> Elastic<'a, O> {
             inner,
             groups,
             regularization,
+            control_weight: 0.0,
             base,
             path,
             boundary,
             way_points,
+        }
+    }
+
+    /// The same with `weight`·∫‖u‖² in its cost. It keeps motions smooth, which on a coarse mesh
+    /// might otherwise find an excess that is none between the points.
+    pub fn with_control_weight(self, weight: f64) -> Self {
+        Self {
+            control_weight: weight,
+            ..self
         }
     }
 

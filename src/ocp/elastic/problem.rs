@@ -125,7 +125,13 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
             };
             self.widen(value, bound.group, amounts, rows);
         }
-        cost * self.regularization
+        let mut cost = cost * self.regularization;
+        if self.control_weight > 0.0 {
+            for &u in point.u {
+                cost += u * u * self.control_weight;
+            }
+        }
+        cost
     }
 
     fn boundary<S: Scalar>(

@@ -5,14 +5,15 @@ use super::warnings::warnings;
 use super::{bound_warnings, diagnosis, retarget};
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::nlp::{self, Control, ipopt};
+use crate::nlp::{self, Control, Deadline, ipopt};
 use crate::ocp::Ocp;
 use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
 use crate::problem::Problem;
-use crate::refine::{Outcome, Refinement, Start, midpoint_errors};
+use crate::refine::{Outcome, Refinement, Start, Verdict, midpoint_errors};
 use crate::system::{
     FreeFloating, JointPath, System, along, goal_errors_in, metrics, trajectory, with_system,
 };
+use crate::transcription::Patterns;
 use std::time::{Duration, Instant};
 
 /// Barrier parameter a saved solution is taken up with.
@@ -84,16 +85,12 @@ impl Planner {
             Some(given) => led(given, problem, system)?,
             None => straight(problem, system)?,
         };
-        let refinement = Refinement {
-            ocp: system,
-            patterns: self.sparsity.patterns(problem, system),
-            settings: &problem.mesh,
-            solver: &solver,
-        };
         let search = Search {
             problem,
             system,
-            refinement,
+            patterns: self.sparsity.patterns(problem, system),
+            solver: &solver,
+            deadline: Deadline::after(solver.time_limit),
         };
         let found = search.run(&start, monitor)?;
         Ok(assemble(problem, system, found, &solver, began))
@@ -135,7 +132,10 @@ struct Found {
 struct Search<'a, Sp: Space> {
     problem: &'a Problem,
     system: &'a FreeFloating<Sp>,
-    refinement: Refinement<'a, FreeFloating<Sp>>,
+    patterns: &'a Patterns,
+    solver: &'a nlp::Settings,
+    /// That of all solves together, the diagnosis included.
+    deadline: Deadline,
 }
 
 impl<Sp: Space> Search<'_, Sp> {
@@ -147,12 +147,14 @@ impl<Sp: Space> Search<'_, Sp> {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Found, PlanError> {
         let first = self.refine(start, monitor)?;
-        if first.status != Status::NotConverged || first.outcome.status.is_solved() {
+        if first.status != Status::NotConverged || !asks_why(&first.outcome) {
             return Ok(first);
         }
         let mut outcome = first.outcome;
         let (problem, system) = (self.problem, self.system);
-        let diagnosed = diagnosis::diagnose(problem, system, &outcome.trajectory, monitor)?;
+        let diagnosed =
+            diagnosis::diagnose(problem, system, &outcome.trajectory, self.deadline, monitor)?;
+        outcome.out_of_time |= self.deadline.has_passed();
         outcome.statistics.add(&diagnosed.statistics);
         let ended = |status, outcome, diagnosis| Found {
             status,
@@ -187,7 +189,17 @@ impl<Sp: Space> Search<'_, Sp> {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Found, PlanError> {
         let mut stopped = false;
-        let outcome = self.refinement.run(start, &mut |event| {
+        let solver = nlp::Settings {
+            time_limit: self.deadline.remaining(),
+            ..self.solver.clone()
+        };
+        let refinement = Refinement {
+            ocp: self.system,
+            patterns: self.patterns,
+            settings: &self.problem.mesh,
+            solver: &solver,
+        };
+        let outcome = refinement.run(start, &mut |event| {
             let control = monitor(&Event::Refinement(event));
             stopped |= control == Control::Stop;
             control
@@ -198,6 +210,13 @@ impl<Sp: Space> Search<'_, Sp> {
             diagnosis: None,
         })
     }
+}
+
+/// Whether it is to be asked which limits cannot hold: not where time ran out, nor where there are
+/// solutions that only need finer meshes.
+fn asks_why(outcome: &Outcome) -> bool {
+    let last = outcome.records.last().map(|record| record.verdict);
+    !outcome.out_of_time && (!outcome.status.is_solved() || last == Some(Verdict::Diverging))
 }
 
 /// The plan of what was found.

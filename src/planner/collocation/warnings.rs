@@ -25,6 +25,16 @@ pub(super) fn warnings(
 fn discarded(outcome: &Outcome) -> Option<String> {
     let count = outcome.discarded.len();
     let meshes = if count == 1 { "mesh" } else { "meshes" };
+    if outcome.out_of_time {
+        return Some(format!(
+            "the time limit ended the planning; this is the best trajectory until then{}",
+            if count > 0 {
+                ", of the last mesh that was solved"
+            } else {
+                ""
+            }
+        ));
+    }
     (count > 0).then(|| {
         format!(
             "{count} finer {meshes}, tried for the sake of limits between the points, did not \

@@ -102,6 +102,7 @@ pub(super) fn assemble<Sp: Space>(
         method.name()
     );
     let diagnosis = (status == Status::Infeasible).then(|| Diagnosis {
+        converged: true,
         summary: sentence(&limits, &verb),
         limits,
         starts: Starts {

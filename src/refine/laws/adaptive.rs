@@ -6,6 +6,8 @@
 //!
 //! - λ₁·⌈…⌉ of (30) and λ₂·⌈…⌉ of (32) are rounded to whole numbers, at least two parts and one
 //!   point.
+//! - A segment whose error hardly fell when its degree was raised is divided: no degree resolves a
+//!   switch of the control inside it.
 //! - A segment that (32) would give more than `max_points` is divided instead.
 //! - Each part of a divided segment gets `points`, or as many more as it takes for the parts
 //!   together to have no fewer points than the segment had: n parts of a segment of N points get
@@ -18,11 +20,54 @@
 use super::raise::{decades, raised};
 use crate::collocation::{Mesh, MeshError};
 use crate::refine::curvature::Curvature;
-use crate::refine::{Assessment, Decision, Refined, RefinementLaw, Settings, Violation};
+use crate::refine::{Assessment, Decision, Record, Refined, RefinementLaw, Settings, Violation};
+
+/// The largest error of segment `s` on the mesh before, where it was the same segment with fewer
+/// points.
+fn error_before(assessment: &Assessment<'_>, s: usize) -> Option<f64> {
+    let (mesh, errors) = assessment.before?;
+    let new = &assessment.trajectory.mesh;
+    let ends = &new.breakpoints()[s..s + 2];
+    let old = mesh
+        .breakpoints()
+        .windows(2)
+        .position(|pair| pair == ends)?;
+    (mesh.rule(old).len() < new.rule(s).len()).then(|| errors.worst(old).1)
+}
 
 /// Where in a segment a cut for the sake of a bound may be, |τ|: not so near its end that one of
 /// the parts is of no use.
 const OUTERMOST: f64 = 0.9;
+
+/// Mesh iterations without a limit of the user's.
+const MOST: usize = 40;
+/// Mesh iterations that are made whether or not the error falls, and at most for the sake of bounds
+/// that are exceeded by little.
+const PATIENT: usize = 6;
+/// The best error of so many meshes is compared with the best before them.
+const RECENT: usize = 3;
+/// Part of the best error before to which a later one has to fall for there to be progress.
+const PROGRESS: f64 = 0.7;
+/// Part to which a raised degree has to bring the error of a segment down; otherwise the solution
+/// is not smooth there, and the segment is divided.
+const SMOOTH: f64 = 0.3;
+
+/// Whether the last meshes brought the error hardly down; where it is within the tolerance, how far
+/// bounds are exceeded.
+fn has_stalled(records: &[Record], tolerance: f64) -> bool {
+    if records.len() < PATIENT.max(RECENT + 1) {
+        return false;
+    }
+    let accurate = |record: &Record| record.max_error <= tolerance;
+    let by_bounds = records.iter().rev().take(RECENT).all(accurate);
+    let size = |record: &Record| match by_bounds {
+        true => record.max_violation,
+        false => record.max_error,
+    };
+    let best = |records: &[Record]| records.iter().map(size).fold(f64::INFINITY, f64::min);
+    let (before, recent) = records.split_at(records.len() - RECENT);
+    best(recent) > PROGRESS * best(before)
+}
 
 #[derive(Debug)]
 pub(super) struct Law<'a>(pub &'a Settings);
@@ -43,14 +88,23 @@ impl RefinementLaw for Law<'_> {
 
     fn describe(&self) -> String {
         let settings = self.0;
+        let iterations = match settings.max_iterations {
+            Some(most) => format!("{most} iterations"),
+            None => "as many iterations as it takes while the error falls".into(),
+        };
         format!(
-            "{} segments of {} points, at most {} points and {} iterations",
-            settings.segments, settings.points, settings.max_points, settings.max_iterations
+            "{} segments of {} points, at most {} points and {iterations}",
+            settings.segments, settings.points, settings.max_points
         )
     }
 
-    fn is_last(&self, iteration: usize, _accurate: bool) -> bool {
-        iteration >= self.0.max_iterations
+    fn is_last(&self, records: &[Record]) -> bool {
+        let count = records.len();
+        match self.0.max_iterations {
+            Some(most) => count >= most,
+            None if records[count - 1].verdict.is_converged() => count >= PATIENT,
+            None => count >= MOST || has_stalled(records, self.0.tolerance),
+        }
     }
 
     fn refine(&self, assessment: &Assessment<'_>) -> Option<Refined> {
@@ -83,9 +137,10 @@ impl Law<'_> {
         if error <= settings.tolerance {
             return self.cut_at_violation(&assessment.violations[s]);
         }
+        let rough = error_before(assessment, s).is_some_and(|before| error > SMOOTH * before);
         let curvature = Curvature::new(assessment.trajectory, s, state);
         let wanted = raised(settings, assessment.trajectory.mesh.rule(s).len(), error);
-        if curvature.ratio() > settings.r_max || wanted > settings.max_points {
+        if rough || curvature.ratio() > settings.r_max || wanted > settings.max_points {
             let parts = settings.lambda1 * decades(error, settings.tolerance);
             Change::Divide(curvature.cuts((parts.round() as usize).max(2)))
         } else {
@@ -166,6 +221,7 @@ mod tests {
             errors: &Errors {
                 by_segment: vec![vec![error]],
             },
+            before: None,
             violations: &[violation.into_iter().collect()],
         })
     }

@@ -3,7 +3,7 @@
 
 use super::raise::raised;
 use crate::collocation::{Mesh, MeshError};
-use crate::refine::{Assessment, Decision, Refined, RefinementLaw, Settings};
+use crate::refine::{Assessment, Decision, Record, Refined, RefinementLaw, Settings};
 
 /// One segment, or one between each two way-points, all with as many points.
 #[derive(Debug)]
@@ -22,8 +22,8 @@ impl RefinementLaw for Law<'_> {
         )
     }
 
-    fn is_last(&self, _iteration: usize, accurate: bool) -> bool {
-        accurate
+    fn is_last(&self, records: &[Record]) -> bool {
+        records[records.len() - 1].max_error <= self.0.tolerance
     }
 
     fn refine(&self, assessment: &Assessment<'_>) -> Option<Refined> {
@@ -62,6 +62,7 @@ mod tests {
             errors: &Errors {
                 by_segment: vec![vec![1e-9], vec![error]],
             },
+            before: None,
             violations: &[vec![], vec![]],
         })
     }

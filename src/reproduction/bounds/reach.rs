@@ -57,7 +57,7 @@ pub fn largest_final_attitude(
         method: Method::Adaptive,
         segments: 20,
         points: 5,
-        max_iterations: 1,
+        max_iterations: Some(1),
         ..task.mesh.clone()
     };
     let solver = nlp::Settings {
@@ -111,7 +111,7 @@ pub fn largest_final_attitude(
     // What was found on one coarse mesh is refined: between its nodes it need not be a motion.
     session.begin("largest final attitude, refined")?;
     let settings = refine::Settings {
-        max_iterations: 5,
+        max_iterations: Some(5),
         tolerance: 1e-3,
         ..settings
     };

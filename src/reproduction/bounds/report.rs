@@ -72,7 +72,7 @@ pub fn bounded(session: &mut Session<'_>) -> Result<(Case, Plan), ReproductionEr
         limits.final_base_attitude.fill(bound);
         let settings = &mut problem.mesh;
         (settings.segments, settings.points) = (40, 4);
-        (settings.tolerance, settings.max_iterations) = (1e-3, 10);
+        (settings.tolerance, settings.max_iterations) = (1e-3, Some(10));
     })?;
     let title = format!("table1, the base within ±{bound}°");
     let mesh = problem

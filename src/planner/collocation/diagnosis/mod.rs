@@ -8,7 +8,7 @@ mod search;
 pub(in crate::planner) use findings::findings;
 
 use crate::dynamics::space::Space;
-use crate::nlp::{Control, Statistics};
+use crate::nlp::{Control, Deadline, Statistics};
 use crate::planner::words::cannot_hold;
 use crate::planner::{Diagnosis, Event, PlanError};
 use crate::problem::Problem;
@@ -20,7 +20,8 @@ use search::{Found, Search};
 pub(super) struct Diagnosed {
     /// The limits that cannot hold; `None` where all can, or where nothing was found.
     pub diagnosis: Option<Diagnosis>,
-    /// Whether a trajectory within all limits was found after all.
+    /// Whether a trajectory within all limits was found after all; it may be one of a mesh that is
+    /// too coarse.
     pub feasible: bool,
     /// Whether the monitor stopped it.
     pub interrupted: bool,
@@ -37,6 +38,7 @@ pub(super) fn diagnose<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
     failed: &Discretization,
+    deadline: Deadline,
     monitor: &mut dyn FnMut(&Event<'_>) -> Control,
 ) -> Result<Diagnosed, PlanError> {
     let limits = system.elastic_limits();
@@ -47,6 +49,7 @@ pub(super) fn diagnose<Sp: Space>(
         system,
         failed,
         monitor,
+        deadline,
         statistics: Statistics::default(),
     };
     let mut found = None;
@@ -87,10 +90,11 @@ pub(super) fn diagnose<Sp: Space>(
             ..none(false)
         });
     }
-    let summary = cannot_hold(&limits);
+    let summary = cannot_hold(&limits, found.converged);
     let diagnosis = Some(Diagnosis {
         limits,
         starts: found.starts,
+        converged: found.converged,
         summary,
     });
     Ok(Diagnosed {
