@@ -10,12 +10,15 @@
 mod base;
 mod document;
 mod error;
+mod faults;
+mod figures;
 mod files;
 mod fit;
 mod goal;
 mod inertia;
 mod item;
 mod keep_out;
+mod long_way;
 mod overrides;
 mod platform;
 mod problem;
@@ -23,8 +26,9 @@ mod robot;
 mod tables;
 mod values;
 mod way_point;
+mod xml_text;
 
-pub use error::{ConfigError, Place};
+pub use error::{ConfigError, Place, Remedy};
 pub use fit::{Experiment, FitFile, Hypothesis, PlanSource};
 pub use overrides::Overrides;
 pub use platform::PlatformFile;

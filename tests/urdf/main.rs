@@ -3,11 +3,14 @@
 #[path = "../program/mod.rs"]
 mod program;
 
+mod as_written;
 mod collisions;
 mod exported;
+mod faults;
 mod refused_files;
 mod refused_joints;
 mod refused_links;
 mod refused_trees;
+mod repair;
 mod robots;
 mod understood;
