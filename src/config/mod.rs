@@ -23,6 +23,7 @@ mod overrides;
 mod platform;
 mod problem;
 mod robot;
+mod starter;
 mod tables;
 mod values;
 mod way_point;
@@ -34,6 +35,7 @@ pub use overrides::Overrides;
 pub use platform::PlatformFile;
 pub use problem::ProblemFile;
 pub use robot::RobotFile;
+pub use starter::{Starter, StarterJoint};
 
 use document::Value;
 use item::Section;

@@ -13,4 +13,6 @@ mod refused_links;
 mod refused_trees;
 mod repair;
 mod robots;
+mod starter;
+mod tasks;
 mod understood;

@@ -4,6 +4,7 @@ mod description;
 mod file;
 mod model;
 mod notes;
+mod outline;
 mod repair;
 mod urdf;
 
@@ -14,6 +15,7 @@ use super::{ConfigError, Place};
 use crate::dynamics::{Inertia, Placement};
 use crate::problem::{Problem, Shape};
 use description::Description;
+pub(super) use outline::{Outline, OutlineJoint};
 use repair::Repair;
 use std::path::Path;
 
@@ -138,6 +140,22 @@ pub(super) fn read(
     Ok(robot(locked.unwrap_or(item), repair, (description, file)))
 }
 
+/// Whether a file's name is that of a URDF and not of a TOML file, or what was expected.
+fn is_urdf(path: &Path) -> Result<bool, &'static str> {
+    let extension = path
+        .extension()
+        .map(|extension| extension.to_ascii_lowercase());
+    match extension
+        .as_deref()
+        .and_then(|extension| extension.to_str())
+    {
+        Some("toml") => Ok(false),
+        Some("urdf" | "xml") => Ok(true),
+        Some("xacro") => Err("URDF: run xacro on the file first, xacro arm.urdf.xacro > arm.urdf"),
+        _ => Err("a file that ends in .toml or .urdf"),
+    }
+}
+
 fn load(
     item: &Item<'_>,
     path: &str,
@@ -146,18 +164,7 @@ fn load(
 ) -> Result<(Description, RobotFile), ConfigError> {
     let full = folder.join(path);
     let path = full.display().to_string();
-    let extension = full
-        .extension()
-        .map(|extension| extension.to_string_lossy());
-    let is_urdf = match extension.map(|e| e.to_ascii_lowercase()).as_deref() {
-        Some("toml") => false,
-        Some("urdf" | "xml") => true,
-        Some("xacro") => {
-            let expected = "URDF: run xacro on the file first, xacro arm.urdf.xacro > arm.urdf";
-            return Err(item.error(quoted(&path), expected));
-        }
-        _ => return Err(item.error(quoted(&path), "a file that ends in .toml or .urdf")),
-    };
+    let is_urdf = is_urdf(&full).map_err(|expected| item.error(quoted(&path), expected))?;
     let read = if is_urdf {
         Files::read_xml
     } else {

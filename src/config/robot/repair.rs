@@ -8,7 +8,9 @@ use crate::config::ConfigError;
 use crate::config::faults::Faults;
 use crate::config::figures::{Figures, Unusable};
 use crate::config::item::{Item, Section};
-use crate::dynamics::{Inertia, InertiaError};
+use crate::dynamics::{Inertia, InertiaError, Placement};
+use nalgebra::Matrix3;
+use std::collections::HashMap;
 
 /// What may be changed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -53,10 +55,20 @@ impl Description {
     /// link. Bodies with a fault get some as well, so that their joints are not found at fault too.
     pub(super) fn settle(&mut self, repair: &Repair, loaded: bool) -> Settled {
         let mut settled = Settled::default();
-        for (name, unusable) in std::mem::take(&mut self.unusable) {
-            let inertia = self.settle_body(&name, unusable, repair, loaded, &mut settled);
-            let (carrier, at) = self.body(&name).expect("a body of this robot");
-            self.add(&inertia.placed(&at.rotation, &at.translation), carrier);
+        let unusable = std::mem::take(&mut self.unusable);
+        let places = if unusable.is_empty() {
+            HashMap::new()
+        } else {
+            self.places()
+        };
+        for (name, unusable) in unusable {
+            let place = &places[&name];
+            let inertia = settle_body(unusable, place, repair, loaded, &mut settled);
+            let at = &place.placement;
+            self.add(
+                &inertia.placed(&at.rotation, &at.translation),
+                place.carrier,
+            );
         }
         if let Some(least) = repair.minimum_mass {
             self.give_mass(least, &mut settled.changes);
@@ -64,41 +76,28 @@ impl Description {
         settled
     }
 
-    fn settle_body(
-        &self,
-        name: &str,
-        unusable: Unusable,
-        repair: &Repair,
-        loaded: bool,
-        settled: &mut Settled,
-    ) -> Inertia {
-        let (carrier, _) = self.body(name).expect("a body of this robot");
-        let is_root = self.base.name == name || (carrier.is_none() && self.root_is_frame);
-        let moves = self
-            .joints
-            .iter()
-            .any(|entry| entry.joint.body.name == *name);
-        let given_mass = repair.minimum_mass.is_some();
-        match unusable {
-            unusable if loaded && is_root => {
-                let faults = unusable.faults(false);
-                let aside = |fault| format!("{fault}; left aside, [base] stands for this link");
-                settled.changes.extend(faults.iter().map(aside));
-                Inertia::massless()
-            }
-            Unusable::Unphysical(figures, cause) if repair.inertia => {
-                let held = figures.mass == 0.0 && given_mass;
-                match figures.repaired(moves && !held) {
-                    Ok((inertia, moments)) => {
-                        let change = repaired(&figures, &cause, &inertia, moments);
-                        settled.changes.push(change);
-                        inertia
-                    }
-                    Err(_) => refused(Unusable::Unphysical(figures, cause), moves, settled),
-                }
-            }
-            unusable => refused(unusable, moves, settled),
+    /// Where every body is, by its name.
+    fn places(&self) -> HashMap<String, Place> {
+        let mut places = HashMap::new();
+        let mut put = |name: &str, carrier: Option<usize>, placement, moves| {
+            let is_root = self.base.name == name || (carrier.is_none() && self.root_is_frame);
+            let place = Place {
+                carrier,
+                placement,
+                is_root,
+                moves,
+            };
+            places.entry(name.to_owned()).or_insert(place);
+        };
+        let own = Placement::identity;
+        put(&self.base.name, None, own(), false);
+        for (j, entry) in self.joints.iter().enumerate() {
+            put(&entry.joint.body.name, Some(j), own(), true);
         }
+        for frame in &self.frames {
+            put(&frame.name, frame.carrier, frame.placement.clone(), false);
+        }
+        places
     }
 
     /// Makes what a joint moves at least so heavy, by a ball of water at its mass centre.
@@ -108,8 +107,7 @@ impl Description {
             let mass = body.inertia.mass();
             if mass < least {
                 let ball = Inertia::ball(least - mass);
-                let still = nalgebra::Matrix3::identity();
-                let ball = ball.placed(&still, body.inertia.center());
+                let ball = ball.placed(&Matrix3::identity(), body.inertia.center());
                 body.inertia = body.inertia.lumped(&ball);
                 changes.push(format!(
                     "{}: joint '{}' moves {mass} kg in body '{}': made {least} kg by a ball of \
@@ -118,6 +116,47 @@ impl Description {
                 ));
             }
         }
+    }
+}
+
+/// Where a body is.
+struct Place {
+    /// The joint whose body it is part of; `None` for the base.
+    carrier: Option<usize>,
+    /// Its frame there.
+    placement: Placement,
+    /// Whether a spacecraft would stand for it.
+    is_root: bool,
+    /// Whether a joint moves it by itself.
+    moves: bool,
+}
+
+fn settle_body(
+    unusable: Unusable,
+    place: &Place,
+    repair: &Repair,
+    loaded: bool,
+    settled: &mut Settled,
+) -> Inertia {
+    match unusable {
+        unusable if loaded && place.is_root => {
+            let aside = |fault| format!("{fault}; left aside, [base] stands for this link");
+            let faults = unusable.faults(false);
+            settled.changes.extend(faults.iter().map(aside));
+            Inertia::massless()
+        }
+        Unusable::Unphysical(figures, cause) if repair.inertia => {
+            let gets_mass = figures.mass == 0.0 && repair.minimum_mass.is_some();
+            match figures.repaired(place.moves && !gets_mass) {
+                Ok((inertia, moments)) => {
+                    let change = repaired(&figures, &cause, &inertia, moments);
+                    settled.changes.push(change);
+                    inertia
+                }
+                Err(_) => refused(Unusable::Unphysical(figures, cause), place.moves, settled),
+            }
+        }
+        unusable => refused(unusable, place.moves, settled),
     }
 }
 

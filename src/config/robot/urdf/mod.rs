@@ -16,6 +16,7 @@ use element::{Element, Source};
 use joint::{Joint, Motion};
 use link::Link;
 use roxmltree::Node;
+use std::collections::HashSet;
 use std::sync::Arc;
 use tree::Tree;
 use xml::RUN_XACRO;
@@ -171,7 +172,8 @@ fn assemble(name: &str, links: Vec<Link>, joints: Vec<Joint>, tree: &Tree) -> De
         robot.end_effector = Some(frames[end].clone());
     }
     // Links above a base that floats are left out.
-    unusable.retain(|(name, _)| robot.body(name).is_some());
+    let names: HashSet<&str> = robot.body_names().collect();
+    unusable.retain(|(name, _)| names.contains(name.as_str()));
     robot.unusable = unusable;
     robot
 }
