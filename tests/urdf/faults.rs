@@ -38,9 +38,9 @@ fn faults_of_many_kinds_in_one_message() {
         "{message}"
     );
     for part in [
-        "izz: \"none\"; expected a finite number, kg m²; (2) arm.urdf:",
-        "link 'upper' <inertial> <mass> value: \"-4\"; expected a finite mass of zero or above, kg; (3) arm.urdf:",
-        "joint 'shoulder' <axis> xyz: \"0 0 0\"; expected 3 finite numbers that are not all zero",
+        "izz: \"none\"; expected a finite number, kg m²; (2) arm.urdf:14: joint 'shoulder' <axis>",
+        "xyz: \"0 0 0\"; expected 3 finite numbers that are not all zero; (3) arm.urdf:20: link",
+        "'upper' <inertial> <mass> value: \"-4\"; expected a finite mass of zero or above, kg",
     ] {
         assert!(message.contains(part), "{part}\n{message}");
     }
