@@ -57,6 +57,12 @@ fn tasks_that_cannot_be() {
                 let goal = EndEffectorGoal::at(GoalFrame::Base, &[1.0, 0.0]);
                 p.task.end_effector = Some(goal);
             }),
+            ("task.initial.base_attitude", |p| {
+                p.task.initial_base_attitude = vec![0.0; 3]
+            }),
+            ("task.initial.base_attitude", |p| {
+                p.task.initial_base_attitude = vec![f64::NAN]
+            }),
             ("task.initial.linear_momentum", |p| {
                 p.task.initial_momentum.linear = vec![0.0; 3]
             }),
@@ -95,6 +101,10 @@ fn limits_that_cannot_be() {
             ("limits.torque", |p| p.limits.torque.clear()),
             ("limits.base_attitude", |p| {
                 p.limits.base_attitude = vec![Interval::new(0.1, 0.2)]
+            }),
+            ("limits.base_attitude", |p| {
+                p.task.initial_base_attitude = vec![0.3];
+                p.limits.base_attitude = vec![Interval::symmetric(0.2)]
             }),
             ("limits.base_rate", |p| {
                 p.limits.base_rate = vec![Interval::FREE; 3]
@@ -214,4 +224,13 @@ fn a_built_problem_reads_as_it_was_described() {
     assert_eq!(longer.unwrap().task.duration.upper, 4.0);
     assert_eq!(problem.task.duration.upper, 3.0);
     assert_eq!(problem.into_builder(), described);
+}
+
+#[test]
+fn bounds_hold_the_attitude_at_the_start_and_not_zero() {
+    let turned = problems::smooth().edited(|p| {
+        p.task.initial_base_attitude = vec![0.3];
+        p.limits.base_attitude = vec![Interval::new(0.1, 0.5)];
+    });
+    assert!(turned.is_ok(), "{turned:?}");
 }

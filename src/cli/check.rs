@@ -22,11 +22,17 @@ pub(super) struct Arguments {
     /// Problem file
     #[arg(value_name = "PROBLEM.toml")]
     problem: PathBuf,
+    /// Take the nearest inertia that a body can have for those of the robot that no body has, where
+    /// rounding explains it or no joint moves them; short for --set robot.repair=inertia
+    #[arg(long)]
+    repair: bool,
 }
 
 /// Reads, prints.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
-    let file = ProblemFile::load(&arguments.problem, &Overrides::default())?;
+    let mut overrides = Overrides::default();
+    overrides.repair(arguments.repair);
+    let file = ProblemFile::load(&arguments.problem, &overrides)?;
     let problem = &file.problem;
     let mut lines = Lines::default();
     robot(&mut lines, &file);
@@ -34,7 +40,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     limits(&mut lines, problem);
     cost(&mut lines, problem);
     mesh(&mut lines, problem);
-    let notes: String = file.notes.iter().map(|n| format!("note: {n}\n")).collect();
+    let repairs = file
+        .repairs
+        .iter()
+        .map(|change| format!("warning: {change}\n"));
+    let notes = file.notes.iter().map(|note| format!("note: {note}\n"));
+    let notes: String = repairs.chain(notes).collect();
     terminal::print(&format!(
         "{}: valid\n\n{}\n{}{}{}\n",
         file.path,
@@ -112,6 +123,11 @@ fn task(lines: &mut Lines, problem: &Problem) {
             motion.push_str(&format!(", starting at {rate}"));
         }
         lines.add(&format!("joint {}", joint.name), motion);
+    }
+    if task.starts_turned() {
+        let angles = task.initial_base_attitude.iter();
+        let shown: Vec<String> = angles.map(|angle| show(Unit::Radian, *angle)).collect();
+        lines.add("base at the start", format!("turned {}", shown.join(", ")));
     }
     if let Some(goal) = &task.end_effector {
         lines.add("goal", end_effector(goal));

@@ -23,6 +23,10 @@ pub(super) struct Arguments {
     /// Value for any key of the problem file, as TOML
     #[arg(long, value_name = "key.path=value")]
     set: Vec<String>,
+    /// Take the nearest inertia that a body can have for those of the robot that no body has, where
+    /// rounding explains it or no joint moves them; short for --set robot.repair=inertia
+    #[arg(long)]
+    repair: bool,
     /// Print the comparison as one JSON document
     #[arg(long)]
     json: bool,
@@ -32,7 +36,10 @@ pub(super) struct Arguments {
 ///
 /// The exit status is that of A-RPM, the planner of this program.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
-    let file = ProblemFile::load(&arguments.problem, &Overrides::of(&arguments.set)?)?;
+    let mut overrides = Overrides::of(&arguments.set)?;
+    overrides.repair(arguments.repair);
+    let file = ProblemFile::load(&arguments.problem, &overrides)?;
+    super::plan::say(&file);
     let problem = &file.problem;
     let default = || Path::new("out").join(format!("{}-compare", problem.name));
     let path = arguments.out.clone().unwrap_or_else(default);

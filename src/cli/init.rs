@@ -1,10 +1,14 @@
 //! `init`: a problem and a robot to begin with.
 
 use super::failure::Failure;
+use super::show::{show, show_interval};
 use super::{Outcome, terminal};
+use crate::config::{Starter, StarterJoint};
+use crate::ocp::Interval;
+use crate::problem::Unit;
 use crate::report::{Lines, OutputError, OutputFolder};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Names and texts of the files that are written.
 const FILES: [(&str, &str); 2] = [
@@ -21,12 +25,108 @@ pub(super) struct Arguments {
     /// Folder to write to
     #[arg(value_name = "DIR", default_value = ".")]
     folder: PathBuf,
+    /// Robot of the problem, instead of an example; what its file has is listed
+    #[arg(long, value_name = "FILE")]
+    urdf: Option<PathBuf>,
 }
 
 /// Writes, says what to do next. Files that are there already stay.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
-    let path = &arguments.folder;
-    for (name, _) in FILES {
+    match &arguments.urdf {
+        Some(urdf) => own(&arguments.folder, urdf),
+        None => {
+            let mut lines = Lines::default();
+            let files = FILES.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec()));
+            write(&arguments.folder, &files, &mut lines)?;
+            terminal::print(&lines.finish())?;
+            Ok(Outcome::Done)
+        }
+    }
+}
+
+/// A first problem for the robot in `urdf`, which is copied unless it is in the folder.
+fn own(folder: &Path, urdf: &Path) -> Result<Outcome, Failure> {
+    let name = name_in_folder(urdf);
+    let starter = Starter::of_urdf(urdf, &name)?;
+    let mut files = vec![(
+        "problem.toml".to_owned(),
+        starter.problem.clone().into_bytes(),
+    )];
+    let there = folder.join(&name).canonicalize().ok();
+    if there.is_none() || there != urdf.canonicalize().ok() {
+        let bytes = std::fs::read(urdf).map_err(|error| {
+            Failure::Usage(format!("{}: cannot be read: {error}", urdf.display()))
+        })?;
+        files.push((name, bytes));
+    }
+    let mut lines = Lines::default();
+    list(&starter, urdf, &mut lines);
+    write(folder, &files, &mut lines)?;
+    for change in &starter.repairs {
+        terminal::warn(&format!("warning: {change}"));
+    }
+    terminal::print(&lines.finish())?;
+    Ok(Outcome::Done)
+}
+
+/// The name of the robot's file beside the problem.
+fn name_in_folder(urdf: &Path) -> String {
+    let stem = urdf.file_stem().unwrap_or_default().to_string_lossy();
+    let ends = urdf
+        .extension()
+        .map(|extension| extension.to_string_lossy());
+    match ends.as_deref() {
+        Some(ends @ ("urdf" | "xml")) => format!("{stem}.{ends}"),
+        _ => format!("{stem}.urdf"),
+    }
+}
+
+/// What the robot has, and what was chosen of it.
+fn list(starter: &Starter, urdf: &Path, lines: &mut Lines) {
+    lines.add(
+        "robot",
+        format!("{}, from {}", starter.robot, urdf.display()),
+    );
+    lines.add("joints", starter.joints.len().to_string());
+    for joint in &starter.joints {
+        let StarterJoint {
+            name, kind, link, ..
+        } = joint;
+        let [lower, upper] = joint.limits.position;
+        let position = show_interval(Unit::position(*kind), &Interval::new(lower, upper));
+        let most = |unit, most: f64| match most.is_finite() {
+            true => format!(", {}", show(unit, most)),
+            false => String::new(),
+        };
+        let velocity = most(Unit::rate(*kind), joint.limits.velocity);
+        let effort = most(Unit::effort(*kind), joint.limits.effort);
+        let limits = match position.as_str() {
+            "none" => "no position limit".into(),
+            _ => position,
+        };
+        let held = match joint.locked {
+            Some(at) => format!("; held at {}", show(Unit::position(*kind), at)),
+            None => String::new(),
+        };
+        let value = format!("moves {link}: {limits}{velocity}{effort}{held}");
+        lines.add(&format!("  {name}"), value);
+    }
+    lines.add(
+        "links",
+        format!("{}: {}", starter.links.len(), starter.links.join(", ")),
+    );
+    let (root, spacecraft) = &starter.base;
+    let base = match spacecraft {
+        Some(mass) => format!("{root}, on a spacecraft of {mass} kg: give your own in [base]"),
+        None => root.clone(),
+    };
+    lines.add("base", base);
+    lines.add("end effector", &starter.end_effector);
+}
+
+/// Writes the files, none of which may be there, the first of them the problem.
+fn write(path: &Path, files: &[(String, Vec<u8>)], lines: &mut Lines) -> Result<(), Failure> {
+    for (name, _) in files {
         let file = path.join(name);
         if file.symlink_metadata().is_ok() {
             return Err(Failure::Usage(format!(
@@ -42,15 +142,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         )),
         other => other.into(),
     })?;
-    let mut files = Vec::new();
-    for (name, text) in FILES {
-        files.push(folder.write(name, text)?);
+    let mut written = Vec::new();
+    for (name, bytes) in files {
+        written.push(folder.write_bytes(name, bytes)?);
     }
-    let problem = files[0].display().to_string();
-    let mut lines = Lines::default();
-    lines.files(&files);
+    let problem = written[0].display().to_string();
+    lines.files(&written);
     lines.add("look at it", format!("ffsm-ipopt check {problem}"));
     lines.add("plan it", format!("ffsm-ipopt plan {problem}"));
-    terminal::print(&lines.finish())?;
-    Ok(Outcome::Done)
+    Ok(())
 }

@@ -33,6 +33,10 @@ pub(super) struct Arguments {
     /// Value for any key of the problem file, as TOML
     #[arg(long, value_name = "key.path=value")]
     set: Vec<String>,
+    /// Take the nearest inertia that a body can have for those of the robot that no body has, where
+    /// rounding explains it or no joint moves them; short for --set robot.repair=inertia
+    #[arg(long)]
+    repair: bool,
     /// Saved solution to start from
     #[arg(long, value_name = "solution.json")]
     warm_start: Option<PathBuf>,
@@ -70,6 +74,7 @@ impl ValueEnum for MethodName {
 impl Arguments {
     fn overrides(&self) -> Result<Overrides, ConfigError> {
         let mut overrides = Overrides::of(&self.set)?;
+        overrides.repair(self.repair);
         // The other planners change nothing of the problem.
         if let Some(MethodName(Method::Collocation(method))) = self.method {
             let name = method.name();
@@ -101,9 +106,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
 
     if !arguments.quiet {
-        for note in &file.notes {
-            terminal::warn(&format!("note: {note}"));
-        }
+        say(&file);
     }
 
     interrupt::listen();
@@ -138,6 +141,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Status::NotConverged => Outcome::NotConverged,
         Status::Interrupted => Outcome::Interrupted,
     })
+}
+
+/// What a user should know of how the files were read.
+pub(super) fn say(file: &ProblemFile) {
+    for change in &file.repairs {
+        terminal::warn(&format!("warning: {change}"));
+    }
+    for note in &file.notes {
+        terminal::warn(&format!("note: {note}"));
+    }
 }
 
 /// Writes the files of a plan; the text of `solution.json` and the paths are returned.

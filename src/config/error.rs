@@ -97,4 +97,86 @@ pub enum ConfigError {
         /// What is wrong with them.
         cause: ModelError,
     },
+    /// Mass properties in a robot's file that no body has.
+    #[error("{place}: {key}: {cause}; {remedy}")]
+    Unphysical {
+        /// The line.
+        place: Place,
+        /// The body's inertia in the file.
+        key: String,
+        /// What is wrong with it.
+        cause: InertiaError,
+        /// What can be done about it.
+        remedy: Remedy,
+    },
+    /// Several things that are wrong with one file.
+    #[error("{place}: {} faults: {}", .faults.len(), listed(.faults))]
+    Several {
+        /// The file.
+        place: Place,
+        /// All of them; the message has the first.
+        faults: Vec<ConfigError>,
+    },
+}
+
+/// What can be done about an inertia that no body has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Remedy {
+    /// The nearest inertia of a body, on request.
+    Repair,
+    /// None but another figure: the nearest inertia of a body, with these principal moments in
+    /// kg m², is too far away to be what was meant.
+    Correct([f64; 3]),
+    /// A mass for the link.
+    Mass,
+}
+
+impl fmt::Display for Remedy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Repair => f.write_str(
+                "robot.repair = \"inertia\" (or --repair) takes the nearest that a body can have",
+            ),
+            Self::Correct([a, b, c]) => write!(
+                f,
+                "too far off for robot.repair, and a joint moves it; the nearest that a body can \
+                 have is {a:.3e}, {b:.3e}, {c:.3e}"
+            ),
+            Self::Mass => {
+                f.write_str("a joint moves it, so that robot.repair needs robot.minimum_mass")
+            }
+        }
+    }
+}
+
+/// Faults that are said; the others are counted.
+const LISTED: usize = 8;
+
+fn listed(faults: &[ConfigError]) -> String {
+    let listed = faults.iter().take(LISTED).enumerate();
+    let mut parts: Vec<String> = listed
+        .map(|(i, fault)| format!("({}) {fault}", i + 1))
+        .collect();
+    if faults.len() > LISTED {
+        parts.push(format!("and {} more", faults.len() - LISTED));
+    }
+    parts.join("; ")
+}
+
+impl ConfigError {
+    /// Where it is.
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Unreadable { place, .. }
+            | Self::Format { place, .. }
+            | Self::UnknownKey { place, .. }
+            | Self::Missing { place, .. }
+            | Self::Value { place, .. }
+            | Self::Inertia { place, .. }
+            | Self::Model { place, .. }
+            | Self::Unphysical { place, .. }
+            | Self::Several { place, .. } => place,
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Where files are read from: the disk, those shipped inside the program, texts kept elsewhere.
 
 use super::document::Node;
-use super::{ConfigError, Place};
+use super::{ConfigError, Place, xml_text};
 use std::path::{Component, Path, PathBuf};
 
 /// Where the files of a problem are read from.
@@ -105,11 +105,23 @@ impl Files<'_> {
 
     /// The text of a file, or why there is none.
     pub(super) fn read(self, path: &Path) -> Result<String, String> {
+        self.read_as(path, |bytes| {
+            String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
+        })
+    }
+
+    /// The text of an XML file, which may be in another encoding than UTF-8, or why there is none.
+    pub(super) fn read_xml(self, path: &Path) -> Result<String, String> {
+        self.read_as(path, xml_text::decode)
+    }
+
+    fn read_as(
+        self,
+        path: &Path,
+        decode: fn(Vec<u8>) -> Result<String, String>,
+    ) -> Result<String, String> {
         match self {
-            Self::Disk => {
-                let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-                String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
-            }
+            Self::Disk => decode(std::fs::read(path).map_err(|error| error.to_string())?),
             Self::Shipped => SHIPPED
                 .iter()
                 .find(|(name, _)| Path::new(name) == without_parents(path))

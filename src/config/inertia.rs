@@ -1,30 +1,50 @@
 //! Mass properties of a body: the keys `mass`, `com` and `inertia`.
 
 use super::ConfigError;
+use super::figures::{Figures, Unusable, last_digit};
 use super::item::{Item, Section};
-use crate::dynamics::{Inertia, InertiaError};
+use crate::dynamics::{Inertia, InertiaError, Placement};
 use nalgebra::{Matrix3, Vector3};
 
 /// Reads the mass properties among the keys of `section`.
 pub(super) fn read(section: &Section<'_>) -> Result<Inertia, ConfigError> {
-    let mass_item = section.require("mass", "a finite mass above zero, kg")?;
-    let mass = mass_item.positive("a finite mass above zero, kg")?;
+    let figures = figures(section)?;
+    body(&figures).map_err(|cause| ConfigError::Inertia {
+        place: figures.place,
+        key: figures.key,
+        cause,
+    })
+}
+
+/// Those of a body of a robot, where they are figures; whether a body can have them is another
+/// matter.
+pub(super) fn read_body(section: &Section<'_>) -> Result<Result<Inertia, Unusable>, ConfigError> {
+    let figures = figures(section)?;
+    let inertia = body(&figures);
+    Ok(inertia.map_err(|cause| Unusable::Unphysical(figures, cause)))
+}
+
+fn body(figures: &Figures) -> Result<Inertia, InertiaError> {
+    Inertia::new(figures.mass, figures.pose.translation, figures.own)
+}
+
+fn figures(section: &Section<'_>) -> Result<Figures, ConfigError> {
+    let mass = section.require("mass", "a finite mass above zero, kg")?;
+    let mass = mass.positive("a finite mass above zero, kg")?;
     let center = match section.get("com") {
-        Some(item) => item.triple("an array of 3 lengths, m")?.into(),
-        None => Vector3::zeros(),
+        Some(item) => item.triple("an array of 3 lengths, m")?,
+        None => [0.0; 3],
     };
-    let inertia_item = section.require("inertia", EXPECTED)?;
-    Inertia::new(mass, center, matrix(inertia_item)?).map_err(|cause| {
-        let item = match cause {
-            InertiaError::Mass(_) => mass_item,
-            InertiaError::Center(_) => section.get("com").unwrap_or(mass_item),
-            _ => inertia_item,
-        };
-        ConfigError::Inertia {
-            place: item.node.place.clone(),
-            key: item.key.clone(),
-            cause,
-        }
+    let item = section.require("inertia", EXPECTED)?;
+    let own = matrix(item)?;
+    Ok(Figures {
+        place: item.node.place.clone(),
+        key: item.key.clone(),
+        mass,
+        own,
+        // As the shortest way to write the number has it.
+        rounding: own.map(|figure| 0.5 * last_digit(&format!("{figure:e}"))),
+        pose: Placement::from_xyz_rpy(center, [0.0; 3]),
     })
 }
 

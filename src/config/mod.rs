@@ -10,26 +10,32 @@
 mod base;
 mod document;
 mod error;
+mod faults;
+mod figures;
 mod files;
 mod fit;
 mod goal;
 mod inertia;
 mod item;
 mod keep_out;
+mod long_way;
 mod overrides;
 mod platform;
 mod problem;
 mod robot;
+mod starter;
 mod tables;
 mod values;
 mod way_point;
+mod xml_text;
 
-pub use error::{ConfigError, Place};
+pub use error::{ConfigError, Place, Remedy};
 pub use fit::{Experiment, FitFile, Hypothesis, PlanSource};
 pub use overrides::Overrides;
 pub use platform::PlatformFile;
 pub use problem::ProblemFile;
 pub use robot::RobotFile;
+pub use starter::{Starter, StarterJoint};
 
 use document::Value;
 use item::Section;

@@ -65,6 +65,15 @@ impl Overrides {
         });
     }
 
+    const REPAIR: &str = "--repair";
+
+    /// Adds `--repair`, short for `--set robot.repair=inertia`, where it is `given`.
+    pub fn repair(&mut self, given: bool) {
+        if given {
+            self.text(Self::REPAIR, "robot.repair", "inertia");
+        }
+    }
+
     /// Adds a number for `key`, given by the option `flag`.
     pub fn number(&mut self, flag: &str, key: &str, value: f64) {
         let value = Value::Float(value);
@@ -84,10 +93,14 @@ impl Overrides {
         for flag in flags {
             let unknown = || ConfigError::Format {
                 place: place(flag),
-                message: "not an option that changes a problem; expected --set, --method or \
-                          --tolerance with its value"
+                message: "not an option that changes a problem; expected --repair, or \
+                          --set, --method or --tolerance with its value"
                     .into(),
             };
+            if flag == Self::REPAIR {
+                overrides.repair(true);
+                continue;
+            }
             let (option, value) = flag.split_once(' ').ok_or_else(unknown)?;
             match option {
                 "--set" => overrides.set(value)?,
@@ -124,6 +137,9 @@ impl Entry {
         let mut node = document;
         let mut path = String::new();
         for part in self.key.split('.') {
+            if let (ROBOT, Value::Text(_)) = (path.as_str(), &node.value) {
+                tabulate(node);
+            }
             let found = node.describe();
             let Value::Table(entries) = &mut node.value else {
                 let expected = "a table, so that a key in it can be set".into();
@@ -158,6 +174,15 @@ impl Entry {
         };
         Ok(())
     }
+}
+
+/// The one key that is a path or a table in which the path is one of the keys.
+const ROBOT: &str = "robot";
+
+/// The path as that table.
+fn tabulate(node: &mut Node) {
+    let file = node.clone();
+    node.value = Value::Table(vec![("file".into(), file)]);
 }
 
 fn place(flag: &str) -> Place {
@@ -238,6 +263,7 @@ mod tests {
         let mut overrides = Overrides::default();
         overrides.set("limits.control = [1, 2]").unwrap();
         overrides.text("--method rpm", "mesh.method", "rpm");
+        overrides.repair(true);
         overrides.number("--tolerance 1e-7", "mesh.tolerance", 1e-7);
         assert_eq!(Overrides::replay(&overrides.flags()).unwrap(), overrides);
         let error = Overrides::replay(&["--quiet".into()]).unwrap_err();
@@ -245,6 +271,20 @@ mod tests {
             error.to_string().starts_with("--quiet: not an option"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_robot_named_by_its_path_has_the_keys_of_the_table() {
+        let of = |set: &str, key| value(set, "robot", key);
+        assert_eq!(
+            of("robot.end_effector=tool", "file"),
+            Value::Text("r".into())
+        );
+        assert_eq!(
+            of("robot.end_effector=tool", "end_effector"),
+            Value::Text("tool".into())
+        );
+        assert_eq!(of("robot.file=x", "file"), Value::Text("x".into()));
     }
 
     #[test]
@@ -259,8 +299,8 @@ mod tests {
                 "--set mesh..x=1: a part of the key is empty; expected --set key.path=value",
             ),
             (
-                "robot.file=x",
-                "--set robot.file=x: robot: a string (\"r\"); expected a table, so that a key in it can be set",
+                "mesh.points.x=1",
+                "--set mesh.points.x=1: mesh.points: 5; expected a table, so that a key in it can be set",
             ),
         ] {
             assert_eq!(document(&[set]).unwrap_err().to_string(), expected);

@@ -5,7 +5,7 @@ use super::files::Files;
 use super::item::{Item, Section};
 use super::robot::{self, Robot, RobotFile};
 use super::values::Components;
-use super::{ConfigError, Overrides, Place, base, tables};
+use super::{ConfigError, Overrides, Place, base, long_way, tables};
 use crate::problem::{Problem, ProblemBuilder, ProblemError};
 use std::path::Path;
 
@@ -27,6 +27,9 @@ pub struct ProblemFile {
     pub end_effector: Option<String>,
     /// What a user should know of how the files were read, though nothing is wrong; a line each.
     pub notes: Vec<String>,
+    /// What was changed of the robot, as `robot.repair` or `robot.minimum_mass` asks or because
+    /// `[base]` stands for the root link; a line each.
+    pub repairs: Vec<String>,
     document: Node,
 }
 
@@ -77,9 +80,12 @@ impl ProblemFile {
         overrides.apply(&mut document)?;
         let (builder, robot, note) = read(&document, path, files)?;
         let problem = builder.build().map_err(|error| blame(&document, error))?;
+        let long_way = long_way::notes(&problem, |key| document.locate(key).to_string());
+        let notes = robot.notes(&problem).into_iter().chain(note);
         Ok(Self {
-            notes: robot.notes(&problem).into_iter().chain(note).collect(),
+            notes: notes.chain(long_way).collect(),
             end_effector: robot.end_effector(),
+            repairs: robot.changes,
             problem,
             path: source.path,
             text: source.text,

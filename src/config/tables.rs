@@ -31,6 +31,7 @@ pub(super) fn task(
     let initial = section.require("initial", expected)?.section(&[
         "joints",
         "rates",
+        "base_attitude",
         "linear_momentum",
         "angular_momentum",
     ])?;
@@ -58,7 +59,14 @@ pub(super) fn task(
     Ok(Task {
         way_points,
         duration: duration(section.require("duration", DURATION)?)?,
-        initial_rates: or_zero(initial.get("rates"), joints)?,
+        initial_rates: match initial.get("rates") {
+            // One for all: typically 0.
+            Some(item) if item.as_number().is_some() => {
+                vec![item.number("a finite rate, rad/s or m/s")?; joints.names.len()]
+            }
+            item => or_zero(item, joints)?,
+        },
+        initial_base_attitude: or_zero(initial.get("base_attitude"), angles)?,
         initial_momentum: Momentum {
             linear: or_zero(initial.get("linear_momentum"), lengths)?,
             angular: or_zero(initial.get("angular_momentum"), angles)?,

@@ -128,6 +128,44 @@ impl Inertia {
         Ok(inertia)
     }
 
+    /// The body of that mass (kg), its mass centre at the origin, whose rotational inertia is
+    /// nearest to the given one, symmetric or not: positive definite, with principal moments of
+    /// which none exceeds the sum of the others. Derived in docs/algorithms.md#the-nearest-inertia.
+    pub fn nearest(mass: f64, rotational: &Matrix3<f64>) -> Self {
+        let eigen = SymmetricEigen::new((rotational + rotational.transpose()) * 0.5);
+        let mut order = [0, 1, 2];
+        order.sort_by(|i, j| eigen.eigenvalues[*i].total_cmp(&eigen.eigenvalues[*j]));
+        let sorted = order.map(|i| eigen.eigenvalues[i]);
+        let mut moments = Vector3::zeros();
+        for (i, moment) in order.into_iter().zip(physical(sorted)) {
+            moments[i] = moment;
+        }
+        let axes = eigen.eigenvectors;
+        let turned = axes * Matrix3::from_diagonal(&moments) * axes.transpose();
+        let solid = if moments.amax() > 0.0 {
+            turned
+        } else {
+            *Self::ball(mass).rotational()
+        };
+        Self {
+            mass,
+            center: Vector3::zeros(),
+            rotational: (solid + solid.transpose()) * 0.5,
+        }
+    }
+
+    /// A solid ball of water of that mass (kg) about the origin.
+    pub fn ball(mass: f64) -> Self {
+        const DENSITY: f64 = 1000.0;
+        let cubed = 0.75 * mass / (std::f64::consts::PI * DENSITY);
+        let moment = 0.4 * mass * cubed.cbrt().powi(2);
+        Self {
+            mass,
+            center: Vector3::zeros(),
+            rotational: Matrix3::identity() * moment,
+        }
+    }
+
     /// No mass at all: a frame.
     pub fn massless() -> Self {
         Self {
@@ -144,7 +182,7 @@ impl Inertia {
     }
 
     /// Principal moments, kg m², the smallest first.
-    fn moments(&self) -> [f64; 3] {
+    pub fn moments(&self) -> [f64; 3] {
         let mut moments: [f64; 3] = SymmetricEigen::new(self.rotational).eigenvalues.into();
         moments.sort_by(f64::total_cmp);
         moments
@@ -191,5 +229,87 @@ impl Inertia {
             center,
             rotational: shifted(self) + shifted(other),
         }
+    }
+}
+
+/// Least principal moment that a repaired inertia gets, as a part of the largest: that of a rod
+/// fifty times as long as it is wide.
+const SLENDER: f64 = 1e-3;
+
+/// The nearest principal moments that a body can have to those given, which are sorted.
+fn physical([a, b, c]: [f64; 3]) -> [f64; 3] {
+    let excess = c - a - b;
+    let [a, b, c] = if excess <= 0.0 {
+        [a, b, c]
+    } else if a + excess / 3.0 >= 0.0 {
+        // Onto the plane c = a + b.
+        [a + excess / 3.0, b + excess / 3.0, c - excess / 3.0]
+    } else {
+        // Onto the edge at which b = a + c as well: a rod.
+        let rod = (0.5 * (b + c)).max(0.0);
+        [0.0, rod, rod]
+    };
+    // A moment of zero is no body's.
+    [a.max(SLENDER * c), b, c]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The nearest of many that can be, by brute force.
+    fn by_search(given: [f64; 3]) -> f64 {
+        let steps = || (0..=60).map(|k| f64::from(k) * 0.05);
+        let mut least = f64::INFINITY;
+        for a in steps() {
+            for b in steps() {
+                for c in steps() {
+                    if c <= a + b && b <= a + c && a <= b + c {
+                        let gap: f64 = given
+                            .iter()
+                            .zip([a, b, c])
+                            .map(|(x, y)| (x - y).powi(2))
+                            .sum();
+                        least = least.min(gap.sqrt());
+                    }
+                }
+            }
+        }
+        least
+    }
+
+    #[test]
+    fn nothing_physical_is_nearer() {
+        for given in [
+            [0.2, 0.3, 2.0],
+            [-1.0, 1.0, 1.5],
+            [0.0, 0.0, 1.5],
+            [-0.5, 0.7, 0.9],
+            [1.0, 1.0, 1.9],
+        ] {
+            let found = physical(given);
+            let gap: f64 = given.iter().zip(found).map(|(x, y)| (x - y).powi(2)).sum();
+            assert!(gap.sqrt() < by_search(given) + 3e-3, "{given:?}: {found:?}");
+            let inertia = Inertia::nearest(1.0, &Matrix3::from_diagonal(&given.into()));
+            let [a, b, c] = inertia.moments();
+            assert!(
+                a > 0.0 && c <= (a + b) * (1.0 + 1e-12),
+                "{given:?}: {a} {b} {c}"
+            );
+            assert!(inertia.is_solid());
+        }
+        assert_eq!(
+            Inertia::nearest(2.0, &-Matrix3::identity()),
+            Inertia::ball(2.0)
+        );
+    }
+
+    #[test]
+    fn axes_are_kept() {
+        let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.8, 1.1).into_inner();
+        let turned = |d: [f64; 3]| turn * Matrix3::from_diagonal(&d.into()) * turn.transpose();
+        let found = Inertia::nearest(1.0, &turned([0.2, 2.0, 0.3]));
+        let expected = turned([0.7, 1.5, 0.8]);
+        assert!((found.rotational() - expected).amax() < 1e-14);
     }
 }

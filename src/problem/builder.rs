@@ -80,6 +80,15 @@ impl ProblemBuilder {
         }
     }
 
+    /// What limits on the base attitude are about, at t₀: each angle, or the rotation angle, rad.
+    pub fn limited_start_attitude(&self) -> Vec<f64> {
+        let angles = &self.task.initial_base_attitude;
+        match self.has_rotation_angle() {
+            true => vec![SpatialAttitude::RollPitchYaw.to_quaternion(angles).angle()],
+            false => angles.clone(),
+        }
+    }
+
     /// Whether limits and weights on the base attitude are on its rotation angle: in space, where
     /// the attitude is not given by angles.
     pub fn has_rotation_angle(&self) -> bool {

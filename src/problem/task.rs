@@ -17,6 +17,10 @@ pub struct Task {
     pub initial_joints: Vec<f64>,
     /// Joint rates at t₀, rad/s or m/s; length n.
     pub initial_rates: Vec<f64>,
+    /// Orientation of the base at t₀ in the inertial axes from which the base attitude is counted,
+    /// whatever describes it: the angle in the plane, else roll, pitch, yaw, rad. Zero in the
+    /// paper; anything else where a motion is planned again on its way.
+    pub initial_base_attitude: Vec<f64>,
     /// Momentum of the whole system; zero in the paper.
     pub initial_momentum: Momentum,
     /// Joint positions at t_f, rad or m; length n. The arm comes to rest there, eq. (13).
@@ -40,11 +44,17 @@ impl Task {
             duration: Interval::fixed(duration),
             initial_joints: initial.into(),
             initial_rates: vec![0.0; n],
+            initial_base_attitude: vec![0.0; angles],
             initial_momentum: Momentum::zero(angles, lengths),
             final_joints: goal.into(),
             free_joints: vec![false; n],
             end_effector: None,
             way_points: Vec::new(),
         }
+    }
+
+    /// Whether the base starts turned out of the inertial axes.
+    pub fn starts_turned(&self) -> bool {
+        self.initial_base_attitude.iter().any(|angle| *angle != 0.0)
     }
 }

@@ -17,12 +17,16 @@ pub struct Provenance {
     /// Linear solver inside Ipopt, as of [`crate::planner::Plan::linear_solver`].
     #[serde(deserialize_with = "current_names")]
     pub linear_solver: String,
-    /// SHA-256 of the robot's file, hexadecimal.
+    /// SHA-256 of the robot's text in UTF-8, hexadecimal.
     pub robot_sha256: String,
     /// The problem.
     pub problem: ProblemSource,
     /// The robot.
     pub robot: TextFile,
+    /// What was changed of the robot before it was planned for, a line each; reading the texts
+    /// again changes it again.
+    #[serde(default)]
+    pub repairs: Vec<String>,
 }
 
 /// The problem file and what was laid over it.
@@ -64,6 +68,7 @@ impl Provenance {
                 path: file.robot.path.clone(),
                 text: file.robot.text.clone(),
             },
+            repairs: file.repairs.clone(),
         }
     }
 }

@@ -21,7 +21,7 @@ pub fn read_warm_start(path: &Path, problem: &Problem) -> Result<Start, Solution
     let trajectory = discretization(path, &solution)?;
     match description(path, &solution)? {
         Some(found) if problem.robot.plane().is_none() && found != problem.attitude => Ok(Start {
-            trajectory: converted(&trajectory, found, problem.attitude),
+            trajectory: converted(&trajectory, found, problem),
             iterate: None,
         }),
         _ => Ok(Start {
@@ -62,13 +62,14 @@ fn description(path: &Path, solution: &Solution) -> Result<Option<SpatialAttitud
     Err(error("trajectory.base_attitude", message))
 }
 
-/// `trajectory` with its base attitude described by `to` instead of `from`.
+/// `trajectory` with its base attitude described as in `problem` instead of by `from`.
 fn converted(
     trajectory: &Discretization,
     from: SpatialAttitude,
-    to: SpatialAttitude,
+    problem: &Problem,
 ) -> Discretization {
-    let mut eta = to.start().to_vec();
+    let to = problem.attitude;
+    let mut eta = to.of_angles(&problem.task.initial_base_attitude);
     let mut x = Vec::new();
     for row in trajectory.x.chunks_exact(trajectory.states) {
         let (old, joints) = row.split_at(from.count());

@@ -142,7 +142,7 @@ pub(crate) fn formulation<Sp: Space>(
     let quantities =
         |rows: &[Row]| -> Vec<Quantity> { rows.iter().map(|row| row.quantity.clone()).collect() };
     let task = &problem.task;
-    let start = plant.attitude.start().iter();
+    let start = plant.start_attitude.iter();
     let initial = start
         .chain(&task.initial_joints)
         .chain(&task.initial_rates)

@@ -91,6 +91,11 @@ impl<Sp: Space> FreeFloating<Sp> {
         self.plant.attitude
     }
 
+    /// The attitude parameters at t₀.
+    pub fn start_attitude(&self) -> &[f64] {
+        &self.plant.start_attitude
+    }
+
     /// The base's angular velocity for the joint rates and the system's momentum, into `data`;
     /// needs [`Tree::momentum`].
     pub fn base_rate<S: Scalar>(&self, eta: &[S], dtheta: &[S], data: &mut Data<Sp, S>) {

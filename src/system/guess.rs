@@ -198,7 +198,7 @@ fn follow<Sp: Space>(problem: &FreeFloating<Sp>, duration: f64, path: &JointPath
     let mut data = Data::<Sp, f64>::new(tree);
     let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let mut rates = vec![0.0; parameters.count()];
-    let mut attitude = vec![parameters.start().to_vec()];
+    let mut attitude = vec![problem.start_attitude().to_vec()];
     for k in 0..STEPS {
         path.at_fraction((k as f64 + 0.5) / STEPS as f64, &mut q, &mut dq, &mut ddq);
         tree.kinematics(&q, &mut data);

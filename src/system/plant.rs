@@ -7,12 +7,19 @@ use crate::dynamics::space::{Space, Vector};
 use crate::dynamics::{Data, Tree};
 use crate::problem::Problem;
 
+/// Parameters of a quaternion, of which no description of the attitude has more.
+const MOST_PARAMETERS: usize = 4;
+
 /// The dynamics behind the problem; immutable.
 #[derive(Debug, Clone)]
 pub(crate) struct Plant<Sp: Space> {
     pub tree: Tree<Sp>,
     pub attitude: Sp::Attitude,
     pub drift: Drift<Sp>,
+    /// η(t₀).
+    pub start_attitude: Vec<f64>,
+    /// Whether base axes and inertial axes differ at t₀.
+    pub starts_turned: bool,
     /// ζ(t₀), m.
     pub start_position: Sp::Linear<f64>,
 }
@@ -22,8 +29,11 @@ impl<Sp: Space> Plant<Sp> {
         let mut data = Data::<Sp, f64>::new(&tree);
         tree.kinematics(&problem.task.initial_joints, &mut data);
         tree.momentum(&mut data);
+        let start_attitude = attitude.of_angles(&problem.task.initial_base_attitude);
         Self {
-            start_position: attitude.base_position(attitude.start(), &data.system_center),
+            start_position: attitude.base_position(&start_attitude, &data.system_center),
+            start_attitude,
+            starts_turned: problem.task.starts_turned(),
             drift: Drift::new(&problem.task.initial_momentum, tree.total_mass()),
             attitude,
             tree,
@@ -62,6 +72,16 @@ impl<Sp: Space> Plant<Sp> {
         let mut position = self.attitude.base_position(eta, center);
         self.drift.carry(t, position.components_mut());
         position
+    }
+
+    /// A vector in inertial axes by its components along the base axes at t₀.
+    pub fn seen_from_start<S: Scalar>(&self, vector: &Sp::Linear<S>) -> Sp::Linear<S> {
+        let mut eta = [S::constant(0.0); MOST_PARAMETERS];
+        let eta = &mut eta[..self.parameters()];
+        for (constant, &at) in eta.iter_mut().zip(&self.start_attitude) {
+            *constant = S::constant(at);
+        }
+        Sp::along_axes(&self.attitude.orient(eta, &Sp::aligned()), vector)
     }
 
     /// The rates that limits and costs on the base are about: η̇ where η are angles, else ω₀.

@@ -63,7 +63,7 @@ fn integrate<Sp: Space>(
     };
     let mut data = Data::<Sp, f64>::new(tree);
     let (mut q, mut dq) = (vec![0.0; from.len()], vec![0.0; from.len()]);
-    let mut eta = attitude.start().to_vec();
+    let mut eta = system.start_attitude().to_vec();
     let mut method = Rk4::new(eta.len());
     let mut path = Trajectory {
         attitude: attitude.in_space(),

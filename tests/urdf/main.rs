@@ -3,11 +3,16 @@
 #[path = "../program/mod.rs"]
 mod program;
 
+mod as_written;
 mod collisions;
 mod exported;
+mod faults;
 mod refused_files;
 mod refused_joints;
 mod refused_links;
 mod refused_trees;
+mod repair;
 mod robots;
+mod starter;
+mod tasks;
 mod understood;

@@ -61,7 +61,7 @@ fn xacro_is_pointed_out() {
     );
     assert_eq!(
         refusal("<robot>\n<xacro:arm/>\n</robot>"),
-        format!("arm.urdf:2: not XML: an unknown namespace prefix 'xacro'; {run_it}")
+        format!("arm.urdf:2: <xacro:arm>; {run_it}")
     );
     assert_eq!(
         edit("0.5 0 0\"/>\n    <limit", "${length} 0 0\"/>\n    <limit"),

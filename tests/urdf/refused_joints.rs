@@ -119,7 +119,7 @@ fn joints_that_move_nothing() {
         format!(
             "{file}:{line}: joint '{joint}' can move without moving any mass: too little mass or \
              inertia in body '{body}' and what it carries; expected bodies with mass, a fixed \
-             joint, or this one in robot.lock"
+             joint, this one in robot.lock, or robot.minimum_mass"
         )
     };
     let sensor = edited(

@@ -38,7 +38,7 @@ fn masses_and_inertias() {
         (
             "<mass value=\"4\"/>",
             "<mass value=\"0\"/>",
-            "arm.urdf:21: link 'upper' <inertial> <inertia>: mass is zero but inertia is not, expected both above zero or both zero",
+            "arm.urdf:21: link 'upper' <inertial> <inertia>: mass is zero but inertia is not, expected both above zero or both zero; a joint moves it, so that robot.repair needs robot.minimum_mass",
         ),
         (
             UPPER,
@@ -58,12 +58,12 @@ fn masses_and_inertias() {
         (
             UPPER,
             "<inertia ixx=\"0.02\" ixy=\"0.05\" ixz=\"0\" iyy=\"0.09\" iyz=\"0\" izz=\"0.1\"/>",
-            "arm.urdf:21: link 'upper' <inertial> <inertia>: inertia is not positive definite: its smallest principal moment is -6.032778e-3 kg m², expected above zero",
+            "arm.urdf:21: link 'upper' <inertial> <inertia>: inertia is not positive definite: its smallest principal moment is -6.032778e-3 kg m², expected above zero; too far off for robot.repair, and a joint moves it; the nearest that a body can have is 1.322e-3, 1.074e-1, 1.087e-1",
         ),
         (
             UPPER,
             "<inertia ixx=\"0.02\" ixy=\"0\" ixz=\"0\" iyy=\"0.02\" iyz=\"0\" izz=\"0.1\"/>",
-            "arm.urdf:21: link 'upper' <inertial> <inertia>: inertia breaks the triangle inequality: principal moments 2.000000e-2, 2.000000e-2, 1.000000e-1 kg m², the largest may not exceed the sum of the others",
+            "arm.urdf:21: link 'upper' <inertial> <inertia>: inertia breaks the triangle inequality: principal moments 2.000000e-2, 2.000000e-2, 1.000000e-1 kg m², the largest may not exceed the sum of the others; too far off for robot.repair, and a joint moves it; the nearest that a body can have is 4.000e-2, 4.000e-2, 8.000e-2",
         ),
     ] {
         assert_eq!(edit(old, new), expected);

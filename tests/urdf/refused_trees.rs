@@ -43,7 +43,7 @@ fn joints_and_links_that_make_no_tree() {
         (
             "<link name=\"tool0\"/>",
             "<link name=\"adapter\"/>",
-            "arm.urdf:57: link 'adapter': given twice; expected a name of its own",
+            "arm.urdf: 2 faults: (1) arm.urdf:54: joint 'tip' <child> link: \"tool0\"; expected the name of a link of this file; (2) arm.urdf:57: link 'adapter': given twice; expected a name of its own",
         ),
         (
             "<joint name=\"tip\"",

@@ -1,5 +1,7 @@
 //! A robot as described, before it becomes a model: bodies can be welded together, joints locked.
 
+use crate::config::faults::Faults;
+use crate::config::figures::Unusable;
 use crate::config::{ConfigError, Place};
 use crate::dynamics::{Body, Inertia, Joint, JointKind, Model, ModelError, Placement};
 use crate::problem::Shape;
@@ -59,6 +61,15 @@ pub(super) struct Description {
     /// What bodies fill by their names, in their own frames; an error for a part that is no shape
     /// that is known.
     pub collisions: Vec<(String, Vec<Result<Shape, ConfigError>>)>,
+    /// What is wrong with the file, though the rest of it could be read.
+    pub faults: Faults,
+    /// Mass properties that cannot be used, by their bodies; these are massless until
+    /// [`Description::settle`].
+    pub unusable: Vec<(String, Unusable)>,
+    /// Whether the root link is but a frame: what is fixed to it is the base then.
+    pub root_is_frame: bool,
+    /// Where a robot none of whose links says its mass is described.
+    pub kinematic: Option<Place>,
 }
 
 impl Description {
@@ -71,6 +82,10 @@ impl Description {
             frames: Vec::new(),
             end_effector: None,
             collisions: Vec::new(),
+            faults: Faults::default(),
+            unusable: Vec::new(),
+            root_is_frame: false,
+            kinematic: None,
         }
     }
 
@@ -173,12 +188,8 @@ impl Description {
         });
     }
 
-    /// Adds mass to the base, given in its frame.
-    pub(super) fn load_base(&mut self, inertia: &Inertia) {
-        self.add(inertia, None);
-    }
-
-    fn add(&mut self, inertia: &Inertia, carrier: Option<usize>) {
+    /// Adds mass to a body, given in its frame.
+    pub(super) fn add(&mut self, inertia: &Inertia, carrier: Option<usize>) {
         let body = match carrier {
             Some(joint) => &mut self.joints[joint].joint.body,
             None => &mut self.base,

@@ -6,7 +6,7 @@ use crate::config::document::{Node, quoted};
 use crate::config::inertia;
 use crate::config::item::{Item, Section};
 use crate::config::values::joint_range;
-use crate::dynamics::{Body, Joint, JointKind, JointLimits, Placement};
+use crate::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, Placement};
 use nalgebra::{Unit, Vector3};
 use std::sync::Arc;
 
@@ -18,11 +18,16 @@ pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigE
     crate::config::schema(&root)?;
     let base = root.require("base", "a table with mass, com and inertia")?;
     let name = root.require("name", "a string")?.text("a string")?;
-    let mut robot = Description::new(name, body(&base.section(&BODY)?, "base")?);
+    let frame = Body {
+        name: String::new(),
+        inertia: Inertia::massless(),
+    };
+    let mut robot = Description::new(name, frame);
+    robot.base = body(&base.section(&BODY)?, "base", &mut robot)?;
     let joints = root.require("joints", "one [[joints]] table a joint")?;
     let elements = joints.as_elements().filter(|elements| !elements.is_empty());
     for item in elements.ok_or_else(|| joints.unexpected("one [[joints]] table a joint"))? {
-        let joint = joint(&item, &robot)?;
+        let joint = joint(&item, &mut robot)?;
         let place = item.node.place.clone();
         robot.joints.push(Entry::new(joint, place));
     }
@@ -39,7 +44,7 @@ pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigE
 
 const BODY: [&str; 4] = ["name", "mass", "com", "inertia"];
 
-fn joint(item: &Item<'_>, robot: &Description) -> Result<Joint, ConfigError> {
+fn joint(item: &Item<'_>, robot: &mut Description) -> Result<Joint, ConfigError> {
     let section = item.section(&["name", "type", "parent", "origin", "axis", "limits", "body"])?;
     let name = section.require("name", "a string")?;
     let name = unused(name, name.text("a string")?, robot)?;
@@ -57,7 +62,7 @@ fn joint(item: &Item<'_>, robot: &Description) -> Result<Joint, ConfigError> {
     let expected = "a table with mass, com and inertia";
     let body_item = section.require("body", expected)?;
     let body_section = body_item.section(&BODY)?;
-    let body = body(&body_section, &format!("{name}_link"))?;
+    let body = body(&body_section, &format!("{name}_link"), robot)?;
     unused(
         body_section.get("name").unwrap_or(body_item),
         &body.name,
@@ -97,14 +102,23 @@ fn carrier(item: &Item<'_>, robot: &Description) -> Result<Option<usize>, Config
     })
 }
 
-fn body(section: &Section<'_>, default_name: &str) -> Result<Body, ConfigError> {
+/// A body; massless, and among those of `robot` to be settled, where no body is like it.
+fn body(
+    section: &Section<'_>,
+    default_name: &str,
+    robot: &mut Description,
+) -> Result<Body, ConfigError> {
     let name = match section.get("name") {
         Some(item) => item.text("a string")?,
         None => default_name,
     };
+    let inertia = inertia::read_body(section)?.unwrap_or_else(|unusable| {
+        robot.unusable.push((name.into(), unusable));
+        Inertia::massless()
+    });
     Ok(Body {
         name: name.into(),
-        inertia: inertia::read(section)?,
+        inertia,
     })
 }
 

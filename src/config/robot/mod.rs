@@ -2,16 +2,21 @@
 
 mod description;
 mod file;
+mod model;
 mod notes;
+mod outline;
+mod repair;
 mod urdf;
 
 use super::document::quoted;
 use super::files::Files;
 use super::item::{Item, hint};
 use super::{ConfigError, Place};
-use crate::dynamics::{Inertia, Model, ModelError, Placement};
+use crate::dynamics::{Inertia, Placement};
 use crate::problem::{Problem, Shape};
-use description::{Description, Entry};
+use description::Description;
+pub(super) use outline::{Outline, OutlineJoint};
+use repair::Repair;
 use std::path::Path;
 
 /// The file a robot was read from.
@@ -29,6 +34,12 @@ pub(super) struct Robot {
     place: Place,
     key: String,
     description: Description,
+    /// What of it may be changed.
+    repair: Repair,
+    /// Whether a spacecraft is attached.
+    loaded: bool,
+    /// What was changed, a line each; known once it is a model.
+    pub changes: Vec<String>,
     /// Its file.
     pub file: RobotFile,
 }
@@ -36,33 +47,8 @@ pub(super) struct Robot {
 impl Robot {
     /// Attaches a spacecraft rigidly to the base, given in the frame of the root link.
     pub(super) fn attach(&mut self, spacecraft: &Inertia) {
-        self.description.load_base(spacecraft);
-    }
-
-    /// The model.
-    pub(super) fn model(&self) -> Result<Model, ConfigError> {
-        let entries = &self.description.joints;
-        refuse(entries)?;
-        self.description.model().map_err(|cause| match &cause {
-            ModelError::Base { .. } => self.error(
-                cause.to_string(),
-                "a heavier root link, or a spacecraft under it: [base] with mass and inertia",
-            ),
-            ModelError::MasslessJoint { joint, .. } => {
-                let entry = entries.iter().find(|entry| entry.joint.name == *joint);
-                ConfigError::Format {
-                    place: entry.map_or(&self.place, |entry| &entry.place).clone(),
-                    message: format!(
-                        "{cause}; expected bodies with mass, a fixed joint, or this one in robot.lock"
-                    ),
-                }
-            }
-            _ => ConfigError::Model {
-                place: self.place.clone(),
-                key: self.key.clone(),
-                cause,
-            },
-        })
+        self.description.add(spacecraft, None);
+        self.loaded = true;
     }
 
     /// The joint whose body is or carries the body `name` (`None` for the base), and the pose of
@@ -100,28 +86,6 @@ impl Robot {
     pub(super) fn notes(&self, problem: &Problem) -> Vec<String> {
         notes::of(&self.description.joints, &self.file.path, problem)
     }
-
-    fn error(&self, found: String, expected: &str) -> ConfigError {
-        ConfigError::Value {
-            place: self.place.clone(),
-            key: self.key.clone(),
-            found,
-            expected: expected.into(),
-        }
-    }
-}
-
-/// Refuses joints that cannot move by themselves: the first with its reason, all by name.
-fn refuse(entries: &[Entry]) -> Result<(), ConfigError> {
-    let mut refused = entries.iter().filter(|entry| entry.refusal.is_some());
-    let Some(mut error) = refused.next().and_then(|entry| entry.refusal.clone()) else {
-        return Ok(());
-    };
-    let others: Vec<String> = refused.map(|e| format!("'{}'", e.joint.name)).collect();
-    if let (ConfigError::Value { expected, .. }, false) = (&mut error, others.is_empty()) {
-        expected.push_str(&format!("; likewise {}", others.join(", ")));
-    }
-    Err(error)
 }
 
 /// Reads what the key `robot` names, a file relative to `folder`.
@@ -132,20 +96,25 @@ pub(super) fn read(
 ) -> Result<Robot, ConfigError> {
     const EXPECTED: &str =
         "the path of a robot file, or a table with the keys file, lock and end_effector";
-    let robot = |item: &Item<'_>, (mut description, file): (Description, RobotFile)| {
+    let robot = |item: &Item<'_>, repair, (mut description, file): (Description, RobotFile)| {
         description.sort();
         Robot {
             place: item.node.place.clone(),
             key: item.key.clone(),
             description,
+            repair,
+            loaded: false,
+            changes: Vec::new(),
             file,
         }
     };
     if item.as_entries().is_none() {
         let loaded = load(item, item.text(EXPECTED)?, folder, files)?;
-        return Ok(robot(item, loaded));
+        return Ok(robot(item, Repair::default(), loaded));
     }
-    let section = item.section(&["file", "lock", "end_effector"])?;
+    let known = [&["file", "lock", "end_effector"][..], &Repair::KEYS].concat();
+    let section = item.section(&known)?;
+    let repair = Repair::read(&section)?;
     let path = section.require("file", "the path of a robot file")?;
     let (mut description, file) = load(path, path.text("a path")?, folder, files)?;
     if let Some(item) = section.get("end_effector") {
@@ -168,7 +137,23 @@ pub(super) fn read(
             }
         }
     }
-    Ok(robot(locked.unwrap_or(item), (description, file)))
+    Ok(robot(locked.unwrap_or(item), repair, (description, file)))
+}
+
+/// Whether a file's name is that of a URDF and not of a TOML file, or what was expected.
+fn is_urdf(path: &Path) -> Result<bool, &'static str> {
+    let extension = path
+        .extension()
+        .map(|extension| extension.to_ascii_lowercase());
+    match extension
+        .as_deref()
+        .and_then(|extension| extension.to_str())
+    {
+        Some("toml") => Ok(false),
+        Some("urdf" | "xml") => Ok(true),
+        Some("xacro") => Err("URDF: run xacro on the file first, xacro arm.urdf.xacro > arm.urdf"),
+        _ => Err("a file that ends in .toml or .urdf"),
+    }
 }
 
 fn load(
@@ -179,28 +164,20 @@ fn load(
 ) -> Result<(Description, RobotFile), ConfigError> {
     let full = folder.join(path);
     let path = full.display().to_string();
-    let extension = full
-        .extension()
-        .map(|extension| extension.to_string_lossy());
-    let is_urdf = match extension.map(|e| e.to_ascii_lowercase()).as_deref() {
-        Some("toml") => false,
-        Some("urdf" | "xml") => true,
-        Some("xacro") => {
-            let expected = "URDF: run xacro on the file first, xacro arm.urdf.xacro > arm.urdf";
-            return Err(item.error(quoted(&path), expected));
-        }
-        _ => return Err(item.error(quoted(&path), "a file that ends in .toml or .urdf")),
+    let is_urdf = is_urdf(&full).map_err(|expected| item.error(quoted(&path), expected))?;
+    let read = if is_urdf {
+        Files::read_xml
+    } else {
+        Files::read
     };
-    let text = files
-        .read(&full)
-        .map_err(|reason| ConfigError::Unreadable {
-            place: Place {
-                source: format!("{}: {}: {path}", item.node.place, item.key).into(),
-                line: None,
-            },
-            reason,
-            expected: "a robot file, by a path relative to the problem file",
-        })?;
+    let text = read(*files, &full).map_err(|reason| ConfigError::Unreadable {
+        place: Place {
+            source: format!("{}: {}: {path}", item.node.place, item.key).into(),
+            line: None,
+        },
+        reason,
+        expected: "a robot file, by a path relative to the problem file",
+    })?;
     let source = path.as_str().into();
     let description = if is_urdf {
         let stem = full.file_stem().unwrap_or_default().to_string_lossy();

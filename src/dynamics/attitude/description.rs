@@ -25,11 +25,16 @@ pub trait Attitude<Sp: Algebra>: Copy + Debug + PartialEq + Send + Sync + 'stati
         self.names().len()
     }
 
-    /// Parameters of the orientation at t₀, in which base axes and inertial axes agree.
+    /// Parameters of the orientation in which base axes and inertial axes agree, as they do at t₀
+    /// unless the base starts turned.
     fn start(self) -> &'static [f64];
 
+    /// Parameters of the orientation that these angles give: the heading in the plane, else roll,
+    /// pitch, yaw, rad.
+    fn of_angles(self, angles: &[f64]) -> Vec<f64>;
+
     /// Whether the parameters are angles, each with limits and a cost of its own. Else these are
-    /// about the rotation angle from the orientation at t₀, and about the angular velocity.
+    /// about the rotation angle out of the inertial axes, and about the angular velocity.
     fn is_angles(self) -> bool;
 
     /// η̇ (length [`Attitude::count`]) for the base's angular velocity in base axes (rad/s).
@@ -44,7 +49,7 @@ pub trait Attitude<Sp: Algebra>: Copy + Debug + PartialEq + Send + Sync + 'stati
     /// An orientation in base axes, rotated to inertial axes.
     fn orient<S: Scalar>(self, eta: &[S], orientation: &Sp::Orientation<S>) -> Sp::Orientation<S>;
 
-    /// φ², the square of the angle of the shortest rotation from the orientation at t₀; smooth at
+    /// φ², the square of the angle of the shortest rotation out of the inertial axes; smooth at
     /// zero, where φ is not.
     fn squared_rotation_angle<S: Scalar>(self, eta: &[S]) -> S;
 

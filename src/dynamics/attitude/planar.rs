@@ -24,6 +24,10 @@ impl Attitude<Planar> for PlanarAngle {
         &[0.0]
     }
 
+    fn of_angles(self, angles: &[f64]) -> Vec<f64> {
+        angles.to_vec()
+    }
+
     fn is_angles(self) -> bool {
         true
     }

@@ -88,6 +88,18 @@ impl Attitude<Spatial> for SpatialAttitude {
         }
     }
 
+    fn of_angles(self, angles: &[f64]) -> Vec<f64> {
+        match self {
+            Self::RollPitchYaw => angles.to_vec(),
+            // To the last bit, as where nothing is said.
+            _ if angles.iter().all(|angle| *angle == 0.0) => self.start().to_vec(),
+            _ => {
+                let orientation = Self::RollPitchYaw.to_quaternion(angles);
+                self.of_quaternion(&orientation, self.start())
+            }
+        }
+    }
+
     fn is_angles(self) -> bool {
         self == Self::RollPitchYaw
     }

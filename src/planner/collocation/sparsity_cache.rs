@@ -42,6 +42,7 @@ fn same_structure(a: &Problem, b: &Problem) -> bool {
         duration,
         initial_joints: _,
         initial_rates: _,
+        initial_base_attitude,
         initial_momentum,
         final_joints: _,
         free_joints: _,
@@ -53,6 +54,7 @@ fn same_structure(a: &Problem, b: &Problem) -> bool {
         && *limits == b.limits
         && *cost == b.cost
         && *duration == b.task.duration
+        && *initial_base_attitude == b.task.initial_base_attitude
         && *initial_momentum == b.task.initial_momentum
         && *end_effector == b.task.end_effector
         && *way_points == b.task.way_points

@@ -296,7 +296,7 @@ impl<'a, Sp: Space, M: JointMotion> Follower<'a, Sp, M> {
             data: Data::new(system.tree()),
             step: breakpoints[breakpoints.len() - 1] / STEPS,
             method: Rk4::new(system.attitude().count()),
-            eta: system.attitude().start().to_vec(),
+            eta: system.start_attitude().to_vec(),
             q: vec![0.0; n],
             dq: vec![0.0; n],
             ddq: vec![0.0; n],

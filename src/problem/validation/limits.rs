@@ -51,18 +51,21 @@ fn rotation_angles(problem: &ProblemBuilder) -> Checked {
 /// The base at the start is within its bounds along the path.
 fn start(problem: &ProblemBuilder) -> Checked {
     for entry in problem.limits.entries() {
-        let what = match entry.id {
-            LimitId::BaseAttitude => "attitude",
-            LimitId::BasePosition => "position",
+        let (what, at) = match entry.id {
+            LimitId::BaseAttitude => ("attitude", problem.limited_start_attitude()),
+            LimitId::BasePosition => ("position", vec![0.0; entry.bounds.len()]),
             _ => continue,
         };
-        let off = |bound: &Interval| bound.violation(0.0) > 0.0;
-        if let Some(i) = entry.bounds.iter().position(off) {
+        // What was measured on the way may be off by its last digit.
+        let room = |at: f64| 1e-12 * at.abs();
+        let mut pairs = entry.bounds.iter().zip(&at);
+        let off = pairs.position(|(bound, at)| bound.violation(*at) > room(*at));
+        if let Some(i) = off {
             let Interval { lower, upper } = entry.bounds[i];
             return Err(error(
                 indexed(&entry.id.key(), i, entry.bounds.len()),
                 format!("[{lower}, {upper}]"),
-                format!("a range around 0, the {what} at the start"),
+                format!("a range around {}, the {what} at the start", at[i]),
             ));
         }
     }

@@ -1,7 +1,8 @@
 //! The task: duration, start and goal.
 
-use super::checks::{Checked, count, error, interval, numbers};
+use super::checks::{Checked, count, error, indexed, interval, numbers};
 use super::goal;
+use crate::dynamics::attitude::Attitude;
 use crate::ocp::Interval;
 use crate::problem::builder::ProblemBuilder;
 use crate::problem::components::base_sizes;
@@ -10,6 +11,7 @@ use crate::problem::limit_id::LimitId;
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     duration(&problem.task.duration)?;
     joints(problem)?;
+    base(problem)?;
     momentum(problem)?;
     goal(problem)
 }
@@ -34,6 +36,27 @@ fn joints(problem: &ProblemBuilder) -> Checked {
     numbers("task.final.joints", &task.final_joints, n, "joints")?;
     count("task.final.free", task.free_joints.len(), n, "joints")
 }
+
+/// An orientation at which the description of the attitude is not singular.
+fn base(problem: &ProblemBuilder) -> Checked {
+    const KEY: &str = "task.initial.base_attitude";
+    let (angles, _) = base_sizes(&problem.robot);
+    let turned = &problem.task.initial_base_attitude;
+    numbers(KEY, turned, angles, "base angles")?;
+    let singular = |pitch: f64| pitch.cos().abs() < SINGULAR;
+    match turned[..] {
+        [_, pitch, _] if problem.attitude.is_angles() && singular(pitch) => Err(error(
+            indexed(KEY, 1, 3),
+            pitch,
+            "a pitch off ±π/2, where roll, pitch and yaw are singular; or base.attitude = \
+             \"quaternion\"",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Cosine of the pitch below which roll-pitch-yaw is taken as singular.
+const SINGULAR: f64 = 1e-3;
 
 fn momentum(problem: &ProblemBuilder) -> Checked {
     let momentum = &problem.task.initial_momentum;

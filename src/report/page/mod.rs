@@ -58,10 +58,11 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
                 @if let Some(diagnosis) = &solution.diagnosis {
                     section.notice { h2 { "Why there is no solution" } p { (diagnosis.summary) } }
                 }
-                @if !solution.warnings.is_empty() {
+                @let known: Vec<_> = solution.warnings.iter().chain(&solution.provenance.repairs).collect();
+                @if !known.is_empty() {
                     section.notice {
                         h2 { "Before it is used" }
-                        ul { @for warning in &solution.warnings { li { (warning) } } }
+                        ul { @for warning in known { li { (warning) } } }
                     }
                 }
                 (playback(&scene))

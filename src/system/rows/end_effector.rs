@@ -23,13 +23,13 @@ pub(crate) struct EndEffectorRows<Sp: Space> {
 
 impl<Sp: Space> EndEffectorRows<Sp> {
     /// Those of the goal at t_f.
-    pub fn at_end(problem: &Problem, _plant: &Plant<Sp>) -> Option<Self> {
+    pub fn at_end(problem: &Problem, plant: &Plant<Sp>) -> Option<Self> {
         let goal = problem.task.end_effector.as_ref()?;
-        Some(Self::new(goal, LimitId::EndEffector, ""))
+        Some(Self::new(goal, plant, LimitId::EndEffector, ""))
     }
 
     /// Those of `goal`, which belong to `limit`; `place` follows their names.
-    pub fn new(goal: &EndEffectorGoal, limit: LimitId, place: &str) -> Self {
+    pub fn new(goal: &EndEffectorGoal, plant: &Plant<Sp>, limit: LimitId, place: &str) -> Self {
         let row = |component, unit, name: String, bounds| {
             let id = BoundId::new(limit, component);
             Row::new(id, unit, format!("{name}{place}"), bounds).sized(SIZE)
@@ -56,10 +56,15 @@ impl<Sp: Space> EndEffectorRows<Sp> {
             rows.push(row(Component::NotReversed, Unit::One, name, cosine));
         }
         Self {
-            orientation: goal
-                .orientation
-                .as_deref()
-                .map(|angles| Sp::Attitude::BY_ANGLES.orientation(angles)),
+            orientation: goal.orientation.as_deref().map(|angles| {
+                let wanted = Sp::Attitude::BY_ANGLES.orientation(angles);
+                match goal.frame {
+                    GoalFrame::Start if plant.starts_turned => {
+                        plant.attitude.orient(&plant.start_attitude, &wanted)
+                    }
+                    _ => wanted,
+                }
+            }),
             goal: goal.clone(),
             rows,
         }
@@ -94,22 +99,25 @@ impl<Sp: Space> EndRows<Sp> for EndEffectorRows<Sp> {
         let lengths = self.goal.position.as_ref().map_or(0, |_| Sp::LENGTHS);
         let (point, turned) = rows.split_at_mut(lengths);
         if lengths > 0 {
-            let seen = match self.goal.frame {
+            let mut seen = match self.goal.frame {
                 GoalFrame::Base => position,
                 GoalFrame::Inertial | GoalFrame::Start => {
                     attitude.to_inertial(at.eta, &(position - at.data.system_center))
                 }
             };
-            point.copy_from_slice(seen.components());
             if self.goal.frame != GoalFrame::Base {
-                at.plant.drift.carry(at.t, point);
+                at.plant.drift.carry(at.t, seen.components_mut());
             }
             if self.goal.frame == GoalFrame::Start {
                 let start = at.plant.start_position.components();
-                for (value, &origin) in point.iter_mut().zip(start) {
+                for (value, &origin) in seen.components_mut().iter_mut().zip(start) {
                     *value = *value - origin;
                 }
+                if at.plant.starts_turned {
+                    seen = at.plant.seen_from_start(&seen);
+                }
             }
+            point.copy_from_slice(seen.components());
         }
         if let Some(goal) = &self.orientation {
             let seen = match self.goal.frame {

@@ -55,7 +55,7 @@ pub(crate) fn way_point<Sp: Space>(
         goal: point
             .end_effector
             .as_ref()
-            .map(|goal| EndEffectorRows::new(goal, limit, &place)),
+            .map(|goal| EndEffectorRows::new(goal, plant, limit, &place)),
         fraction: point.fraction(&problem.task.duration),
     }
 }

@@ -164,10 +164,15 @@ impl<'a, 'input> Element<'a, 'input> {
         let expected = "a name that is not empty";
         let found = self.attribute(attribute, expected)?;
         match found.text {
-            "" => Err(found.unexpected(expected)),
+            name if name.is_empty() || is_expression(name) => Err(found.unexpected(expected)),
             name => Ok(name.into()),
         }
     }
+}
+
+/// Whether xacro would put another text in place of this one.
+fn is_expression(text: &str) -> bool {
+    text.contains("${") || text.contains("$(")
 }
 
 /// An attribute of an element.
@@ -184,7 +189,7 @@ impl Attribute<'_, '_, '_> {
     pub(super) fn unexpected(&self, expected: &str) -> ConfigError {
         let node = self.element.node.attribute_node(self.name.as_str());
         let start = node.map_or(self.element.node.range().start, |node| node.range().start);
-        let hint = if self.text.contains("${") || self.text.contains("$(") {
+        let hint = if is_expression(self.text) {
             " (an expression of xacro's; run xacro on the file first)"
         } else {
             ""

@@ -2,6 +2,7 @@
 
 use super::element::Element;
 use super::origin;
+use crate::config::faults::Faults;
 use crate::config::robot::description::Unlimited;
 use crate::config::{ConfigError, Place};
 use crate::dynamics::{JointKind, JointLimits, Placement};
@@ -51,29 +52,42 @@ pub(super) struct Axis {
 
 const KINDS: &str = "\"revolute\", \"continuous\", \"prismatic\" or \"fixed\"";
 
-/// Reads a joint.
-pub(super) fn read(element: &Element<'_, '_>) -> Result<Joint, ConfigError> {
-    let name = element.name("name")?;
-    let kind = element.attribute("type", KINDS)?;
-    let motion = match kind.text {
+/// Reads a joint; `None` where it does not say what it joins. What is wrong with the rest has a
+/// stand-in, so that the search for faults goes on.
+pub(super) fn read(element: &Element<'_, '_>, faults: &mut Faults) -> Option<Joint> {
+    let name = faults.keep(element.name("name"));
+    let motion = motion(element, faults);
+    let parent = faults.keep(end(element, "parent"));
+    let child = faults.keep(end(element, "child"));
+    let placement = faults.keep(origin(element));
+    Some(Joint {
+        name: name?,
+        place: element.place(),
+        parent: parent?,
+        child: child?,
+        placement: placement.unwrap_or_else(Placement::identity),
+        motion,
+    })
+}
+
+fn motion(element: &Element<'_, '_>, faults: &mut Faults) -> Motion {
+    let Some(kind) = faults.keep(element.attribute("type", KINDS)) else {
+        return Motion::Fixed;
+    };
+    match kind.text {
         "fixed" => Motion::Fixed,
-        "revolute" => Motion::Axis(axis(element, JointKind::Revolute, false)?),
-        "continuous" => Motion::Axis(axis(element, JointKind::Revolute, true)?),
-        "prismatic" => Motion::Axis(axis(element, JointKind::Prismatic, false)?),
+        "revolute" => Motion::Axis(axis(element, JointKind::Revolute, false, faults)),
+        "continuous" => Motion::Axis(axis(element, JointKind::Revolute, true, faults)),
+        "prismatic" => Motion::Axis(axis(element, JointKind::Prismatic, false, faults)),
         "floating" => Motion::Floating(kind.unexpected(
             "\"revolute\", \"continuous\", \"prismatic\" or \"fixed\"; only the base may float, \
              on a root link that has no mass and no other joint",
         )),
-        _ => return Err(kind.unexpected(KINDS)),
-    };
-    Ok(Joint {
-        name,
-        place: element.place(),
-        parent: end(element, "parent")?,
-        child: end(element, "child")?,
-        placement: origin(element)?,
-        motion,
-    })
+        _ => {
+            faults.push(kind.unexpected(KINDS));
+            Motion::Fixed
+        }
+    }
 }
 
 fn end(element: &Element<'_, '_>, tag: &str) -> Result<End, ConfigError> {
@@ -86,33 +100,33 @@ fn end(element: &Element<'_, '_>, tag: &str) -> Result<End, ConfigError> {
     })
 }
 
-fn axis(element: &Element<'_, '_>, kind: JointKind, continuous: bool) -> Result<Axis, ConfigError> {
-    let axis = match element.child("axis")? {
-        Some(element) => {
-            let expected = "3 finite numbers that are not all zero";
-            let xyz = element.attribute("xyz", expected)?;
-            let axis = Vector3::from(xyz.triple(expected)?);
-            // Scaled first, so that neither very small nor very large numbers are lost in the norm.
-            Unit::try_new(axis / axis.amax(), 0.5).ok_or_else(|| xyz.unexpected(expected))?
-        }
-        None => Vector3::x_axis(),
-    };
+fn axis(element: &Element<'_, '_>, kind: JointKind, continuous: bool, faults: &mut Faults) -> Axis {
     let mut limits = JointLimits::NONE;
-    let unlimited = match element.child("limit")? {
-        Some(element) => limit(&element, continuous, &mut limits)?,
+    let given = faults.keep(element.child("axis")).flatten();
+    let axis = given.and_then(|element| faults.keep(direction(&element)));
+    let unlimited = match faults.keep(element.child("limit")).flatten() {
+        Some(element) => limit(&element, continuous, &mut limits, faults),
         None => Unlimited {
             position: !continuous,
             velocity: !continuous,
             effort: !continuous,
         },
     };
-    Ok(Axis {
+    Axis {
         kind,
-        axis,
+        axis: axis.unwrap_or_else(Vector3::x_axis),
         limits,
         unlimited,
-        refusal: mimic(element)?,
-    })
+        refusal: faults.keep(mimic(element)).flatten(),
+    }
+}
+
+fn direction(element: &Element<'_, '_>) -> Result<Unit<Vector3<f64>>, ConfigError> {
+    let expected = "3 finite numbers that are not all zero";
+    let xyz = element.attribute("xyz", expected)?;
+    let axis = Vector3::from(xyz.triple(expected)?);
+    // Scaled first, so that neither very small nor very large numbers are lost in the norm.
+    Unit::try_new(axis / axis.amax(), 0.5).ok_or_else(|| xyz.unexpected(expected))
 }
 
 /// Limits of this size (rad, m, N·m, N) and above stand for none.
@@ -124,41 +138,48 @@ fn limit(
     element: &Element<'_, '_>,
     continuous: bool,
     limits: &mut JointLimits,
-) -> Result<Unlimited, ConfigError> {
+    faults: &mut Faults,
+) -> Unlimited {
     let mut unlimited = Unlimited::default();
     if !continuous {
-        let end = |name| match element.get(name) {
-            Some(attribute) => attribute.number("a number, rad or m"),
-            None => Ok(0.0),
+        let mut end = |name| match element.get(name) {
+            Some(attribute) => faults.keep(attribute.number("a number, rad or m")),
+            None => Some(0.0),
         };
-        let (lower, upper) = (end("lower")?, end("upper")?);
-        if lower > upper || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
-            let found = format!("lower {lower} above upper {upper}");
-            return Err(element.error(found, "lower not above upper"));
-        }
-        unlimited.position = lower == 0.0 && upper == 0.0;
-        if !unlimited.position {
-            limits.position = [lower, upper].map(endless);
+        if let (Some(lower), Some(upper)) = (end("lower"), end("upper")) {
+            if lower > upper || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
+                let found = format!("lower {lower} above upper {upper}");
+                faults.push(element.error(found, "lower not above upper"));
+            }
+            unlimited.position = lower == 0.0 && upper == 0.0;
+            if !unlimited.position {
+                limits.position = [lower, upper].map(endless);
+            }
         }
     }
     for (name, limit, missing) in [
         ("velocity", &mut limits.velocity, &mut unlimited.velocity),
         ("effort", &mut limits.effort, &mut unlimited.effort),
     ] {
-        let expected = "a number of zero or above";
-        let most = match element.get(name) {
-            Some(attribute) => match attribute.number(expected)? {
-                most if most < 0.0 => return Err(attribute.unexpected(expected)),
-                most => most,
-            },
-            None => 0.0,
-        };
+        let most = faults.keep(largest(element, name)).unwrap_or(0.0);
         *missing = most == 0.0;
         if most > 0.0 {
             *limit = endless(most);
         }
     }
-    Ok(unlimited)
+    unlimited
+}
+
+/// A largest speed or effort; 0 where none is given.
+fn largest(element: &Element<'_, '_>, name: &str) -> Result<f64, ConfigError> {
+    let expected = "a number of zero or above";
+    let Some(attribute) = element.get(name) else {
+        return Ok(0.0);
+    };
+    match attribute.number(expected)? {
+        most if most < 0.0 => Err(attribute.unexpected(expected)),
+        most => Ok(most),
+    }
 }
 
 /// The limit, infinite where it stands for none.

@@ -1,60 +1,110 @@
 //! `<link>`: a name, its `<inertial>` and what it fills; what it looks like is not read.
 
-use super::element::Element;
+use super::element::{Attribute, Element};
 use super::{collision, origin};
+use crate::config::faults::Faults;
+use crate::config::figures::{Figures, Unusable, last_digit};
 use crate::config::{ConfigError, Place};
-use crate::dynamics::{Body, Inertia};
+use crate::dynamics::Inertia;
 use crate::problem::Shape;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 /// A link with its mass properties in its own frame.
 #[derive(Debug)]
 pub(super) struct Link {
     pub place: Place,
-    pub body: Body,
+    pub name: String,
+    /// Its mass properties, massless where it has no `<inertial>`.
+    pub inertia: Result<Inertia, Unusable>,
+    pub has_inertial: bool,
     /// What it fills, part by part; an error where a part is none of the shapes that are read.
     pub collisions: Vec<Result<Shape, ConfigError>>,
 }
 
-/// Reads a link; one without `<inertial>` is massless.
-pub(super) fn read(element: &Element<'_, '_>) -> Result<Link, ConfigError> {
-    let name = element.name("name")?;
-    let inertia = match element.child("inertial")? {
-        Some(inertial) => inertia(&inertial)?,
-        None => Inertia::massless(),
+impl Link {
+    /// Whether it is known to have no mass.
+    pub(super) fn is_frame(&self) -> bool {
+        self.inertia
+            .as_ref()
+            .is_ok_and(|inertia| inertia.mass() == 0.0)
+    }
+}
+
+/// Reads a link; `None` for one without a name, which is a fault.
+pub(super) fn read(element: &Element<'_, '_>, faults: &mut Faults) -> Option<Link> {
+    let name = faults.keep(element.name("name"))?;
+    let inertial = element.child("inertial");
+    let has_inertial = !matches!(inertial, Ok(None));
+    let inertia = match inertial {
+        Ok(Some(inertial)) => inertia(&inertial),
+        Ok(None) => Ok(Inertia::massless()),
+        Err(fault) => Err(Unusable::Unread(Faults::from(fault))),
     };
     let parts = element.children("collision");
-    Ok(Link {
+    Some(Link {
         place: element.place(),
-        body: Body { name, inertia },
+        name,
+        inertia,
+        has_inertial,
         collisions: parts.iter().map(collision::read).collect(),
     })
 }
 
-fn inertia(element: &Element<'_, '_>) -> Result<Inertia, ConfigError> {
-    let expected = "a finite mass of zero or above, kg";
-    let mass_element = element.require("mass", expected)?;
-    let value = mass_element.attribute("value", expected)?;
-    let mass = value.finite(expected)?;
-    if mass < 0.0 {
-        return Err(value.unexpected(expected));
-    }
-    let pose = origin(element)?;
-    let inertia_element = element.require("inertia", "ixx, ixy, ixz, iyy, iyz and izz, kg m²")?;
-    let moment = |name| {
-        let expected = "a finite number, kg m²";
-        inertia_element.attribute(name, expected)?.finite(expected)
+fn inertia(element: &Element<'_, '_>) -> Result<Inertia, Unusable> {
+    let mut faults = Faults::default();
+    let mass = faults.keep(mass(element));
+    let pose = faults.keep(origin(element));
+    let expected = "ixx, ixy, ixz, iyy, iyz and izz, kg m²";
+    let figures = faults.keep(element.require("inertia", expected));
+    let figures = figures.and_then(|element| {
+        let moments = moments(&element, &mut faults)?;
+        Some((element, moments))
+    });
+    let (Some(mass), Some(pose), Some((element, (own, rounding)))) = (mass, pose, figures) else {
+        return Err(Unusable::Unread(faults));
     };
-    let (xx, xy, xz) = (moment("ixx")?, moment("ixy")?, moment("ixz")?);
-    let (yy, yz, zz) = (moment("iyy")?, moment("iyz")?, moment("izz")?);
-    let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let figures = Figures {
+        place: element.place(),
+        key: element.path().into(),
+        mass,
+        own,
+        rounding,
+        pose,
+    };
     // Judged as it stands in the file, not as turned.
-    match Inertia::part(mass, Vector3::zeros(), own) {
-        Ok(inertia) => Ok(inertia.placed(&pose.rotation, &pose.translation)),
-        Err(cause) => Err(ConfigError::Inertia {
-            place: inertia_element.place(),
-            key: inertia_element.path().into(),
-            cause,
-        }),
+    figures
+        .inertia()
+        .map_err(|cause| Unusable::Unphysical(figures, cause))
+}
+
+fn mass(element: &Element<'_, '_>) -> Result<f64, ConfigError> {
+    let expected = "a finite mass of zero or above, kg";
+    let element = element.require("mass", expected)?;
+    let value = element.attribute("value", expected)?;
+    match value.finite(expected)? {
+        mass if mass < 0.0 => Err(value.unexpected(expected)),
+        mass => Ok(mass),
     }
+}
+
+/// The matrix of inertia, and by how much each of its figures may be rounded.
+fn moments(element: &Element<'_, '_>, faults: &mut Faults) -> Option<(Matrix3<f64>, Matrix3<f64>)> {
+    let expected = "a finite number, kg m²";
+    let mut moment = |name| {
+        let attribute = faults.keep(element.attribute(name, expected))?;
+        let value = faults.keep(attribute.finite(expected))?;
+        Some((value, rounding(&attribute)))
+    };
+    let read = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(&mut moment);
+    let [xx, xy, xz, yy, yz, zz] = read;
+    let (xx, xy, xz, yy, yz, zz) = (xx?, xy?, xz?, yy?, yz?, zz?);
+    let matrix = |of: fn(&(f64, f64)) -> f64| {
+        let [xx, xy, xz, yy, yz, zz] = [xx, xy, xz, yy, yz, zz].map(|figure| of(&figure));
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    };
+    Some((matrix(|figure| figure.0), matrix(|figure| figure.1)))
+}
+
+fn rounding(attribute: &Attribute<'_, '_, '_>) -> f64 {
+    0.5 * last_digit(attribute.text)
 }

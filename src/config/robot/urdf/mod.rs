@@ -5,22 +5,32 @@ mod element;
 mod joint;
 mod link;
 mod tree;
+mod xml;
 
 use super::description::{Description, Entry};
 use crate::config::ConfigError;
-use crate::dynamics::{Body, Joint, Placement};
+use crate::config::faults::Faults;
+use crate::config::figures::Unusable;
+use crate::dynamics::{self, Body, Inertia, Placement};
 use element::{Element, Source};
-use joint::Motion;
+use joint::{Joint, Motion};
 use link::Link;
-use roxmltree::{Document, Node};
+use roxmltree::Node;
+use std::collections::HashSet;
 use std::sync::Arc;
 use tree::Tree;
+use xml::RUN_XACRO;
 
 /// Reads a robot; `source` is the name of its file in messages, `name` the robot's unless it has
 /// one.
-pub(super) fn read(source: &Arc<str>, text: &str, name: &str) -> Result<Description, ConfigError> {
-    let source = Source::new(source, text);
-    let document = parse(&source, text)?;
+///
+/// # Errors
+/// All that keeps the file from being a tree of links. What else is wrong with it stays in the
+/// description, for it may not matter: joints can be locked, the root link replaced.
+pub(super) fn read(file: &Arc<str>, text: &str, name: &str) -> Result<Description, ConfigError> {
+    let text = xml::strict(text);
+    let source = Source::new(file, &text);
+    let document = xml::parse(&source, &text)?;
     let root = document.root_element();
     let robot = Element::top(&source, root);
     if root.tag_name().name() != "robot" {
@@ -28,39 +38,39 @@ pub(super) fn read(source: &Arc<str>, text: &str, name: &str) -> Result<Descript
     }
     refuse_xacro(&source, root)?;
     let tops = |tag| element::children(root, tag).map(|node| Element::top(&source, node));
-    let links = tops("link")
-        .map(|element| link::read(&element))
-        .collect::<Result<Vec<_>, _>>()?;
-    let joints = tops("joint")
-        .map(|element| joint::read(&element))
-        .collect::<Result<Vec<_>, _>>()?;
-    let tree = Tree::new(robot.place(), &links, &joints)?;
+    let mut faults = Faults::default();
+    let links: Vec<_> = tops("link").map(|e| link::read(&e, &mut faults)).collect();
+    let joints: Vec<_> = tops("joint")
+        .map(|e| joint::read(&e, &mut faults))
+        .collect();
+    // Without a name or an end there is nothing to connect.
+    let complete = links.iter().all(Option::is_some) && joints.iter().all(Option::is_some);
+    let links: Vec<Link> = links.into_iter().flatten().collect();
+    let joints: Vec<Joint> = joints.into_iter().flatten().collect();
+    let connect = |faults: &mut Faults| Tree::new(robot.place(), &links, &joints, faults);
+    let Some(tree) = complete.then(|| connect(&mut faults)).flatten() else {
+        for unusable in links.into_iter().filter_map(|link| link.inertia.err()) {
+            unusable
+                .faults(false)
+                .into_iter()
+                .for_each(|fault| faults.push(fault));
+        }
+        return Err(faults.into_error(source.whole()));
+    };
     let given = root.attribute("name").map(str::trim);
     let name = given.filter(|name| !name.is_empty()).unwrap_or(name);
-    Ok(assemble(name, links, joints, &tree))
+    let kinematic = !links.iter().any(|link| link.has_inertial);
+    let mut description = assemble(name, links, joints, &tree);
+    description.faults = faults;
+    description.kinematic = kinematic.then(|| robot.place());
+    Ok(description)
 }
 
-fn parse<'input>(source: &Source<'_>, text: &'input str) -> Result<Document<'input>, ConfigError> {
-    let format = |place, message| Err(ConfigError::Format { place, message });
-    if text.trim_start_matches('\u{feff}').trim().is_empty() {
-        let message = "the file is empty; expected a <robot>, as in URDF".into();
-        return format(source.whole(), message);
-    }
-    Document::parse(text).or_else(|error| {
-        let position = error.pos();
-        // The line stands in front.
-        let mut message = error.to_string().replace(&format!(" at {position}"), "");
-        let place = source.line(Some(position.row as usize));
-        if text.contains("<xacro:") {
-            message.push_str(&format!("; {XACRO}"));
-        }
-        format(place, format!("not XML: {message}"))
-    })
-}
+/// Elements of xacro's that put nothing in their own place.
+const HARMLESS: [&str; 3] = ["property", "arg", "macro"];
 
-const XACRO: &str = "expected URDF: run xacro on the file first, xacro arm.urdf.xacro > arm.urdf";
-
-/// What xacro has been through declares its name space too, but has no element in it.
+/// What xacro has been through declares its name space too, but has no element in it that would
+/// become another.
 fn refuse_xacro(source: &Source<'_>, root: Node<'_, '_>) -> Result<(), ConfigError> {
     let of_xacro = |node: &Node<'_, '_>| {
         node.is_element()
@@ -68,11 +78,12 @@ fn refuse_xacro(source: &Source<'_>, root: Node<'_, '_>) -> Result<(), ConfigErr
                 .tag_name()
                 .namespace()
                 .is_some_and(|uri| uri.ends_with("/xacro"))
+            && !HARMLESS.contains(&node.tag_name().name())
     };
     match root.descendants().find(of_xacro) {
         Some(node) => Err(ConfigError::Format {
             place: Element::top(source, node).place(),
-            message: format!("<xacro:{}>; {XACRO}", node.tag_name().name()),
+            message: format!("<xacro:{}>; {RUN_XACRO}", node.tag_name().name()),
         }),
         None => Ok(()),
     }
@@ -98,17 +109,23 @@ fn origin(element: &Element<'_, '_>) -> Result<Placement, ConfigError> {
 }
 
 /// The description: joints that move, the links behind fixed ones part of what carries them.
-fn assemble(name: &str, links: Vec<Link>, joints: Vec<joint::Joint>, tree: &Tree) -> Description {
+fn assemble(name: &str, links: Vec<Link>, joints: Vec<Joint>, tree: &Tree) -> Description {
     let order = tree.depth_first();
     let collisions = links.iter().filter(|link| !link.collisions.is_empty());
     let collisions: Vec<_> = collisions
-        .map(|link| (link.body.name.clone(), link.collisions.clone()))
+        .map(|link| (link.name.clone(), link.collisions.clone()))
         .collect();
-    let mut bodies: Vec<Option<Body>> = links.into_iter().map(|link| Some(link.body)).collect();
-    let mut joints: Vec<Option<joint::Joint>> = joints.into_iter().map(Some).collect();
+    let root_is_frame = links[tree.root].is_frame();
+    let mut unusable = Vec::new();
+    let mut bodies: Vec<Option<Body>> = links
+        .into_iter()
+        .map(|link| Some(body(link, &mut unusable)))
+        .collect();
+    let mut joints: Vec<Option<Joint>> = joints.into_iter().map(Some).collect();
     let mut take = |link: usize| bodies[link].take().expect("every link is reached once");
     let mut robot = Description::new(name, take(tree.root));
     robot.collisions = collisions;
+    robot.root_is_frame = root_is_frame;
     // Where each link's frame is: the joint whose body carries it, and its pose there.
     let mut frames = vec![(None, Placement::identity()); tree.children.len()];
     let mut parents = vec![tree.root; joints.len()];
@@ -126,7 +143,7 @@ fn assemble(name: &str, links: Vec<Link>, joints: Vec<joint::Joint>, tree: &Tree
             Motion::Axis(axis) => {
                 frames[link] = (Some(robot.joints.len()), Placement::identity());
                 robot.joints.push(Entry {
-                    joint: Joint {
+                    joint: dynamics::Joint {
                         name: joint.name,
                         kind: axis.kind,
                         parent: carrier,
@@ -154,5 +171,19 @@ fn assemble(name: &str, links: Vec<Link>, joints: Vec<joint::Joint>, tree: &Tree
     if let [end] = ends.collect::<Vec<_>>()[..] {
         robot.end_effector = Some(frames[end].clone());
     }
+    // Links above a base that floats are left out.
+    let names: HashSet<&str> = robot.body_names().collect();
+    unusable.retain(|(name, _)| names.contains(name.as_str()));
+    robot.unusable = unusable;
     robot
+}
+
+/// The body that a link is; massless, and among the `unusable`, where its figures cannot be used.
+fn body(link: Link, unusable: &mut Vec<(String, Unusable)>) -> Body {
+    let Link { name, inertia, .. } = link;
+    let inertia = inertia.unwrap_or_else(|why| {
+        unusable.push((name.clone(), why));
+        Inertia::massless()
+    });
+    Body { name, inertia }
 }

@@ -1,7 +1,8 @@
 //! How the joints of a file connect its links: a tree with one root, or an error.
 
-use super::joint::{Joint, Motion};
+use super::joint::{End, Joint, Motion};
 use super::link::Link;
+use crate::config::faults::Faults;
 use crate::config::{ConfigError, Place};
 use std::collections::HashMap;
 
@@ -15,41 +16,31 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// Connects the links.
-    ///
-    /// # Errors
-    /// [`ConfigError`] for names given twice, links that are not there, a link with two parents,
-    /// a loop, two roots or a floating joint.
-    pub(super) fn new(robot: Place, links: &[Link], joints: &[Joint]) -> Result<Self, ConfigError> {
-        let links_by_name = by_name("link", links.iter().map(|l| (&l.body.name[..], &l.place)))?;
-        by_name("joint", joints.iter().map(|j| (&j.name[..], &j.place)))?;
-        let mut children = vec![Vec::new(); links.len()];
-        let mut carried_by: Vec<Option<usize>> = vec![None; links.len()];
-        for (j, joint) in joints.iter().enumerate() {
-            let find = |end: &super::joint::End| {
-                let found = links_by_name.get(end.link.as_str()).copied();
-                found.ok_or_else(|| end.missing.clone())
-            };
-            let (parent, child) = (find(&joint.parent)?, find(&joint.child)?);
-            if let Some(other) = carried_by[child] {
-                let (name, other) = (&joint.child.link, &joints[other].name);
-                return Err(error(
-                    &joint.place,
-                    format!("joint '{}'", joint.name),
-                    format!("its child '{name}' is the child of joint '{other}' already"),
-                    "one parent a link: a tree",
-                ));
-            }
-            carried_by[child] = Some(j);
-            children[parent].push((j, child));
+    /// Connects the links; `None` where they make no tree: names given twice, links that are not
+    /// there, a link with two parents, a loop, two roots or a floating joint.
+    pub(super) fn new(
+        robot: Place,
+        links: &[Link],
+        joints: &[Joint],
+        faults: &mut Faults,
+    ) -> Option<Self> {
+        let mut broken = Faults::default();
+        let children = children(links, joints, &mut broken);
+        if !broken.is_empty() {
+            faults.append(broken);
+            return None;
+        }
+        let mut carried = vec![false; links.len()];
+        for &(_, child) in children.iter().flatten() {
+            carried[child] = true;
         }
         let mut tree = Self {
-            root: root(robot, links, &carried_by)?,
+            root: root(robot, links, &carried, faults)?,
             children,
         };
-        tree.check_reached(links)?;
-        tree.let_base_float(links, joints)?;
-        Ok(tree)
+        faults.keep(tree.check_reached(links))?;
+        faults.keep(tree.let_base_float(links, joints))?;
+        Some(tree)
     }
 
     /// Joints with the links they move, depth-first in the file's order.
@@ -80,7 +71,7 @@ impl Tree {
     /// robot here floats.
     fn let_base_float(&mut self, links: &[Link], joints: &[Joint]) -> Result<(), ConfigError> {
         let only = match self.children[self.root][..] {
-            [(joint, link)] if links[self.root].body.inertia.mass() == 0.0 => Some((joint, link)),
+            [(joint, link)] if links[self.root].is_frame() => Some((joint, link)),
             _ => None,
         };
         for (j, joint) in joints.iter().enumerate() {
@@ -95,35 +86,57 @@ impl Tree {
     }
 }
 
+/// The joints on each link, with the link each moves.
+fn children(links: &[Link], joints: &[Joint], faults: &mut Faults) -> Vec<Vec<(usize, usize)>> {
+    let names = links.iter().map(|link| (&link.name[..], &link.place));
+    let by_name = by_name("link", names, faults);
+    let names = joints.iter().map(|joint| (&joint.name[..], &joint.place));
+    self::by_name("joint", names, faults);
+    let mut children = vec![Vec::new(); links.len()];
+    let mut carried_by: Vec<Option<usize>> = vec![None; links.len()];
+    for (j, joint) in joints.iter().enumerate() {
+        let mut find = |end: &End| {
+            let found = by_name.get(end.link.as_str()).copied();
+            faults.keep(found.ok_or_else(|| end.missing.clone()))
+        };
+        let (Some(parent), Some(child)) = (find(&joint.parent), find(&joint.child)) else {
+            continue;
+        };
+        if let Some(other) = carried_by[child] {
+            let (name, other) = (&joint.child.link, &joints[other].name);
+            faults.push(error(
+                &joint.place,
+                format!("joint '{}'", joint.name),
+                format!("its child '{name}' is the child of joint '{other}' already"),
+                "one parent a link: a tree",
+            ));
+        }
+        carried_by[child] = Some(j);
+        children[parent].push((j, child));
+    }
+    children
+}
+
 fn by_name<'a>(
     what: &str,
     names: impl Iterator<Item = (&'a str, &'a Place)>,
-) -> Result<HashMap<&'a str, usize>, ConfigError> {
+    faults: &mut Faults,
+) -> HashMap<&'a str, usize> {
     let mut known = HashMap::new();
     for (i, (name, place)) in names.enumerate() {
         if known.insert(name, i).is_some() {
             let key = format!("{what} '{name}'");
-            return Err(error(place, key, "given twice".into(), "a name of its own"));
+            faults.push(error(place, key, "given twice".into(), "a name of its own"));
         }
     }
-    Ok(known)
+    known
 }
 
 /// The one link that no joint moves.
-fn root(robot: Place, links: &[Link], carried_by: &[Option<usize>]) -> Result<usize, ConfigError> {
-    let mut roots = (0..links.len()).filter(|link| carried_by[*link].is_none());
-    match (roots.next(), roots.next()) {
-        (Some(root), None) => Ok(root),
-        (Some(first), Some(second)) => Err(error(
-            &links[second].place,
-            format!("link '{}'", links[second].body.name),
-            format!(
-                "a second root beside link '{}' (no joint has it as its child)",
-                links[first].body.name
-            ),
-            "one root: a tree",
-        )),
-        (None, _) => Err(match links.first() {
+fn root(robot: Place, links: &[Link], carried: &[bool], faults: &mut Faults) -> Option<usize> {
+    let mut roots = (0..links.len()).filter(|link| !carried[*link]);
+    let Some(first) = roots.next() else {
+        faults.push(match links.first() {
             Some(link) => on_loop(link),
             None => error(
                 &robot,
@@ -131,14 +144,29 @@ fn root(robot: Place, links: &[Link], carried_by: &[Option<usize>]) -> Result<us
                 "no links".into(),
                 "at least two links and a joint between them",
             ),
-        }),
+        });
+        return None;
+    };
+    let mut only = Some(first);
+    for second in roots {
+        only = None;
+        faults.push(error(
+            &links[second].place,
+            format!("link '{}'", links[second].name),
+            format!(
+                "a second root beside link '{}' (no joint has it as its child)",
+                links[first].name
+            ),
+            "one root: a tree",
+        ));
     }
+    only
 }
 
 fn on_loop(link: &Link) -> ConfigError {
     error(
         &link.place,
-        format!("link '{}'", link.body.name),
+        format!("link '{}'", link.name),
         "on a loop of joints".into(),
         "a tree: joints that lead from one root link outwards",
     )

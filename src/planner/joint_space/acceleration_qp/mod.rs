@@ -293,9 +293,8 @@ struct ConstantAccelerations {
 
 impl ConstantAccelerations {
     fn new(problem: &Problem, h: f64) -> Self {
-        let (angles, _) = Problem::base_sizes(&problem.robot);
         let start = State {
-            eta: vec![0.0; angles],
+            eta: problem.task.initial_base_attitude.clone(),
             q: problem.task.initial_joints.clone(),
             dq: problem.task.initial_rates.clone(),
         };
