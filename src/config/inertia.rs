@@ -2,7 +2,7 @@
 
 use super::ConfigError;
 use super::item::{Item, Section};
-use crate::dynamics::{Inertia, InertiaError};
+use crate::dynamics::{Inertia, InertiaError, Quantity};
 use nalgebra::{Matrix3, Vector3};
 
 /// Reads the mass properties among the keys of `section`.
@@ -16,8 +16,16 @@ pub(super) fn read(section: &Section<'_>) -> Result<Inertia, ConfigError> {
     let inertia_item = section.require("inertia", EXPECTED)?;
     Inertia::new(mass, center, matrix(inertia_item)?).map_err(|cause| {
         let item = match cause {
-            InertiaError::Mass(_) => mass_item,
-            InertiaError::Center(_) => section.get("com").unwrap_or(mass_item),
+            InertiaError::Mass(_)
+            | InertiaError::TooLarge {
+                quantity: Quantity::Mass,
+                ..
+            } => mass_item,
+            InertiaError::Center(_)
+            | InertiaError::TooLarge {
+                quantity: Quantity::Center,
+                ..
+            } => section.get("com").unwrap_or(mass_item),
             _ => inertia_item,
         };
         ConfigError::Inertia {

@@ -143,11 +143,13 @@ pub(super) fn read(
     };
     if item.as_entries().is_none() {
         let loaded = load(item, item.text(EXPECTED)?, folder, files)?;
+        few_enough(item, &loaded.0)?;
         return Ok(robot(item, loaded));
     }
     let section = item.section(&["file", "lock", "end_effector"])?;
     let path = section.require("file", "the path of a robot file")?;
     let (mut description, file) = load(path, path.text("a path")?, folder, files)?;
+    few_enough(path, &description)?;
     if let Some(item) = section.get("end_effector") {
         let name = item.text("the name of a body or joint")?;
         if !description.set_end_effector(name) {
@@ -169,6 +171,19 @@ pub(super) fn read(
         }
     }
     Ok(robot(locked.unwrap_or(item), (description, file)))
+}
+
+/// Most joints that move, those that are locked included: inertia matrices are dense.
+const MOST_JOINTS: usize = 500;
+
+fn few_enough(item: &Item<'_>, robot: &Description) -> Result<(), ConfigError> {
+    match robot.joints.len() {
+        joints if joints > MOST_JOINTS => {
+            let found = format!("{joints} joints that move");
+            Err(item.error(found, format!("at most {MOST_JOINTS}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn load(

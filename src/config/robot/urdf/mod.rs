@@ -1,5 +1,6 @@
 //! The robot file in URDF; docs/robot-file.md says what is read and what is refused.
 
+mod bounds;
 mod collision;
 mod element;
 mod joint;
@@ -8,7 +9,7 @@ mod tree;
 
 use super::description::{Description, Entry};
 use crate::config::ConfigError;
-use crate::dynamics::{Body, Joint, Placement};
+use crate::dynamics::{Body, Joint, MOST_LENGTH, Placement};
 use element::{Element, Source};
 use joint::Motion;
 use link::Link;
@@ -20,6 +21,7 @@ use tree::Tree;
 /// one.
 pub(super) fn read(source: &Arc<str>, text: &str, name: &str) -> Result<Description, ConfigError> {
     let source = Source::new(source, text);
+    bounds::check(&source, text)?;
     let document = parse(&source, text)?;
     let root = document.root_element();
     let robot = Element::top(&source, root);
@@ -91,8 +93,15 @@ fn origin(element: &Element<'_, '_>) -> Result<Placement, ConfigError> {
             .get(name)
             .map_or(Ok([0.0; 3]), |attribute| attribute.triple(expected))
     };
+    let expected = "3 finite lengths, m";
+    let xyz = triple("xyz", expected)?;
+    if let Some(given) = origin.get("xyz")
+        && xyz.iter().any(|length| length.abs() > MOST_LENGTH)
+    {
+        return Err(given.unexpected(&format!("{expected}, of at most {MOST_LENGTH:e} m")));
+    }
     Ok(Placement::from_xyz_rpy(
-        triple("xyz", "3 finite lengths, m")?,
+        xyz,
         triple("rpy", "3 finite angles, rad")?,
     ))
 }
