@@ -74,11 +74,11 @@ fn errors_do_not_repeat_their_sources() {
         Box::new(body),
         Box::new(SolutionError::Unreadable {
             path: path(),
-            cause: missing(),
+            reason: missing().to_string(),
         }),
         Box::new(OutputError::File {
             path: path(),
-            cause: missing(),
+            reason: missing().to_string(),
         }),
     ];
     for error in errors {

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::{Outcome, terminal};
-use crate::report::{Lines, OutputError, OutputFolder};
+use crate::report::{FileSet, Lines, OutputError, OutputFolder};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -42,10 +42,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         )),
         other => other.into(),
     })?;
-    let mut files = Vec::new();
+    let mut set = FileSet::new();
     for (name, text) in FILES {
-        files.push(folder.write(name, text)?);
+        set.add(&folder, name, text);
     }
+    let files = set.write()?;
     let problem = files[0].display().to_string();
     let mut lines = Lines::default();
     lines.files(&files);

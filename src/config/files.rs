@@ -1,8 +1,11 @@
 //! Where files are read from: the disk, those shipped inside the program, texts kept elsewhere.
 
 use super::document::Node;
-use super::{ConfigError, Place};
+use super::{ConfigError, Place, regular};
 use std::path::{Component, Path, PathBuf};
+
+/// Largest file of a problem, a robot or a platform, bytes.
+const LARGEST: u64 = 32 << 20;
 
 /// Where the files of a problem are read from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,7 +110,7 @@ impl Files<'_> {
     pub(super) fn read(self, path: &Path) -> Result<String, String> {
         match self {
             Self::Disk => {
-                let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+                let bytes = regular::read(path, LARGEST)?;
                 String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
             }
             Self::Shipped => SHIPPED

@@ -19,8 +19,10 @@ mod keep_out;
 mod overrides;
 mod platform;
 mod problem;
+pub(crate) mod regular;
 mod robot;
 mod tables;
+mod trust;
 mod values;
 mod way_point;
 
@@ -30,6 +32,7 @@ pub use overrides::Overrides;
 pub use platform::PlatformFile;
 pub use problem::ProblemFile;
 pub use robot::RobotFile;
+pub use trust::trust_options;
 
 use document::Value;
 use item::Section;
