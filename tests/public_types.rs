@@ -78,7 +78,7 @@ fn errors_do_not_repeat_their_sources() {
         }),
         Box::new(OutputError::File {
             path: path(),
-            reason: missing().to_string(),
+            cause: missing(),
         }),
     ];
     for error in errors {
