@@ -13,11 +13,12 @@ pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let found = file.metadata().map_err(|error| error.to_string())?;
     if !found.is_file() {
         let kind = found.file_type();
-        let what = match () {
-            () if kind.is_dir() => "a folder",
-            () if kind.is_fifo() => "a pipe",
-            () if kind.is_socket() => "a socket",
-            () => "a device",
+        let what = if kind.is_dir() {
+            "a folder"
+        } else if kind.is_fifo() {
+            "a pipe"
+        } else {
+            "a device"
         };
         return Err(format!("it is {what}, not a regular file"));
     }

@@ -127,7 +127,7 @@ impl Shape {
 fn finite(key: &'static str, numbers: &[f64]) -> Option<(&'static str, String, &'static str)> {
     let number = numbers
         .iter()
-        .find(|number| !(number.abs() <= MOST_LENGTH))?;
+        .find(|number| number.is_nan() || number.abs() > MOST_LENGTH)?;
     Some((key, number.to_string(), "finite numbers, at most 1e9 m"))
 }
 

@@ -86,13 +86,14 @@ impl FileSet {
         for (path, contents) in &self.files {
             replaceable(path).map_err(failed(path))?;
             if let Some(contents) = contents {
-                written.push((path, Unnamed::write(path, contents).map_err(failed(path))?));
+                let file = Unnamed::write(path, contents).map_err(failed(path))?;
+                written.push((path, contents, file));
             }
         }
         settled(|| {
             let mut named = Vec::new();
-            for (path, file) in written {
-                named.push((path, file.name(path).map_err(failed(path))?));
+            for (path, contents, file) in written {
+                named.push((path, file.name(path, contents).map_err(failed(path))?));
             }
             let first = named.first().map(|(path, _)| *path);
             for (path, _) in self.files.iter().filter(|(path, _)| Some(path) != first) {
@@ -145,18 +146,12 @@ impl Unnamed {
                 file.write_all(contents)?;
                 Ok(Self::File(file))
             }
-            Err(_) => {
-                let mut file = prefixed()
-                    .permissions(Permissions::from_mode(0o666))
-                    .tempfile_in(folder)?;
-                file.write_all(contents)?;
-                Ok(Self::Temporary(file))
-            }
+            Err(_) => temporary(folder, contents).map(Self::Temporary),
         }
     }
 
-    /// Gives it a name of its own beside `path`.
-    fn name(self, path: &Path) -> io::Result<TempPath> {
+    /// Gives it a name of its own beside `path`; `contents` are what it holds.
+    fn name(self, path: &Path, contents: &[u8]) -> io::Result<TempPath> {
         let file = match self {
             Self::Temporary(file) => return Ok(file.into_temp_path()),
             Self::File(file) => file,
@@ -165,9 +160,20 @@ impl Unnamed {
         let link = |name: &Path| {
             linkat(CWD, &own, CWD, name, AtFlags::SYMLINK_FOLLOW).map_err(io::Error::from)
         };
-        let named = prefixed().make_in(folder_of(path), link)?;
-        Ok(named.into_temp_path())
+        match prefixed().make_in(folder_of(path), link) {
+            Ok(named) => Ok(named.into_temp_path()),
+            // Not every file system gives a name to what has none.
+            Err(_) => Ok(temporary(folder_of(path), contents)?.into_temp_path()),
+        }
     }
+}
+
+/// A file with a name of its own in `folder`.
+fn temporary(folder: &Path, contents: &[u8]) -> io::Result<NamedTempFile> {
+    let permissions = Permissions::from_mode(0o666);
+    let mut file = prefixed().permissions(permissions).tempfile_in(folder)?;
+    file.write_all(contents)?;
+    Ok(file)
 }
 
 fn prefixed() -> tempfile::Builder<'static, 'static> {

@@ -97,7 +97,12 @@ fn a_plan_that_is_killed_leaves_no_mixture() {
         }
         let csv = std::fs::read_to_string(folder.path().join("o/trajectory.csv"));
         let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
-        let new = solution["trajectory"]["t"].as_array().unwrap().last().unwrap() == 21.0;
+        let new = solution["trajectory"]["t"]
+            .as_array()
+            .unwrap()
+            .last()
+            .unwrap()
+            == 21.0;
         if let Ok(csv) = csv {
             assert_eq!(csv == old, !new);
         }

@@ -216,7 +216,10 @@ fn the_files_of_a_plan_are_one_set() {
     std::fs::create_dir(folder.path().join("a/report.html")).unwrap();
     let run = folder.run(&[&plan[..], &["--set", "task.duration=21"]].concat());
     assert_eq!(run.code, 1, "{run:?}");
-    assert!(run.stderr.starts_with("a/report.html: cannot be written: "), "{run:?}");
+    assert!(
+        run.stderr.starts_with("a/report.html: cannot be written: "),
+        "{run:?}"
+    );
     assert_eq!(folder.read("a/solution.json"), old);
     assert_eq!(names(&folder), set);
 }
