@@ -76,7 +76,8 @@ impl Mutator {
             }
             1 => {
                 let copy: Vec<char> = text[at.clone()].to_vec();
-                let times = 1 + self.0.usize(..1 << self.0.u32(..7));
+                let most = 1 << self.0.u32(..7);
+                let times = 1 + self.0.usize(..most);
                 let copies = copy.iter().copied().cycle().take(copy.len() * times);
                 text.splice(at.start..at.start, copies.collect::<Vec<_>>());
             }
