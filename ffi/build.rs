@@ -105,7 +105,9 @@ fn bind(ipopt: &pkg_config::Library) {
         .allowlist_function("(Create|Free)IpoptProblem")
         .allowlist_function("AddIpopt(Str|Num|Int)Option")
         .allowlist_function("OpenIpoptOutputFile|SetIntermediateCallback|IpoptSolve")
-        .allowlist_function("LSL_(loadHSL|isHSLLoaded|isMA97available|isMC19available|setMA97)")
+        .allowlist_function(
+            "LSL_(loadHSL|isHSLLoaded|isMA(27|57|77|86|97)available|isMC19available|setMA97)",
+        )
         .allowlist_type("Bool|Index|Number|Int|UserDataPtr|IpoptProblem|Eval_.*_CB")
         .allowlist_type("Intermediate_CB|ApplicationReturnStatus|AlgorithmMode")
         .prepend_enum_name(false)

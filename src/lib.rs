@@ -10,6 +10,7 @@ pub mod nlp;
 pub mod ocp;
 pub mod parallel;
 pub mod planner;
+mod printable;
 pub mod problem;
 pub mod refine;
 pub mod report;

@@ -74,7 +74,7 @@ fn errors_do_not_repeat_their_sources() {
         Box::new(body),
         Box::new(SolutionError::Unreadable {
             path: path(),
-            cause: missing(),
+            reason: missing().to_string(),
         }),
         Box::new(OutputError::File {
             path: path(),

@@ -12,6 +12,28 @@ use std::sync::{Mutex, PoisonError};
 pub enum Routine {
     /// The scaling MC19.
     Mc19,
+    /// The linear solver MA27.
+    Ma27,
+    /// The linear solver MA57.
+    Ma57,
+    /// The linear solver HSL_MA77.
+    Ma77,
+    /// The linear solver HSL_MA86.
+    Ma86,
+}
+
+/// Whether the HSL library is there and yet lacks `routine`: Ipopt loads it then and ends the process
+/// at the first call. Where there is no library at all, Ipopt says so itself, or has the routine built
+/// in.
+pub fn incomplete(routine: Routine, library: Option<&CStr>) -> bool {
+    let name = match library.map(CStr::to_str) {
+        Some(Ok(name)) => name.into(),
+        Some(Err(_)) => return false,
+        None => libloading::library_filename("hsl"),
+    };
+    // SAFETY: Ipopt itself would load this library and run its initialisers.
+    let there = unsafe { libloading::Library::new(name) }.is_ok();
+    there && !available(routine, library)
 }
 
 /// Whether Ipopt can reach `routine`: registered in this process, or in the HSL library.
@@ -38,6 +60,10 @@ mod imp {
             0 != unsafe {
                 match routine {
                     Routine::Mc19 => bindings::LSL_isMC19available(),
+                    Routine::Ma27 => bindings::LSL_isMA27available(),
+                    Routine::Ma57 => bindings::LSL_isMA57available(),
+                    Routine::Ma77 => bindings::LSL_isMA77available(),
+                    Routine::Ma86 => bindings::LSL_isMA86available(),
                 }
             }
         };
@@ -78,14 +104,39 @@ mod imp {
             return false;
         };
         let names: &[&str] = match routine {
-            Routine::Mc19 => &["mc19ad_", "mc19ad"],
+            Routine::Mc19 => &["mc19ad"],
+            Routine::Ma27 => &["ma27ad", "ma27bd", "ma27cd", "ma27id"],
+            Routine::Ma57 => &["ma57ad", "ma57bd", "ma57cd", "ma57ed", "ma57id"],
+            Routine::Ma77 => &[
+                "ma77_default_control_d",
+                "ma77_open_d",
+                "ma77_analyse_d",
+                "ma77_factor_d",
+                "ma77_factor_solve_d",
+                "ma77_finalise_d",
+                "mc68_default_control_i",
+                "mc68_order_i",
+            ],
+            Routine::Ma86 => &[
+                "ma86_default_control_d",
+                "ma86_analyse_d",
+                "ma86_factor_d",
+                "ma86_factor_solve_d",
+                "ma86_finalise_d",
+                "mc68_default_control_i",
+                "mc68_order_i",
+            ],
         };
-        let found = names.iter().any(|name| {
+        let is_there = |name: String| {
             // SAFETY: the symbol is only looked for, never called.
             let symbol: Result<Symbol<'_, unsafe extern "C" fn()>, _> =
                 unsafe { library.get(name.as_bytes()) };
             symbol.is_ok()
-        });
+        };
+        // Fortran compilers add an underscore.
+        let found = names
+            .iter()
+            .all(|name| is_there(format!("{name}_")) || is_there((*name).to_owned()));
         if found {
             std::mem::forget(library);
         }

@@ -5,8 +5,8 @@ use super::progress::Progress;
 use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
-use crate::planner::Status;
-use crate::report::{ComparisonReport, OutputFolder, comparison_figure};
+use crate::planner::{Method, Status};
+use crate::report::{ComparisonReport, FileSet, OutputFolder, comparison_figure};
 use crate::study::Comparison;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -54,12 +54,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     progress.finish();
     let found = found.map_err(|error| Failure::planning(&file, None, error))?;
 
-    let files = write(&path, &file, &found)?;
+    let mut set = FileSet::new();
+    add(&path, &file, &found, &mut set)?;
     let report = ComparisonReport::of(&problem.name, &found);
     let figure = comparison_figure(problem, &found);
     let to = ("compare", &folder);
     let text = report.markdown();
-    rows::write(to, &report, &text, &figure, files, arguments.json)?;
+    rows::write(to, &report, &text, &figure, set, arguments.json)?;
     Ok(outcome(&found))
 }
 
@@ -82,14 +83,24 @@ fn outcome(found: &Comparison) -> Outcome {
     }
 }
 
-/// Every plan in a folder of its method.
-fn write(path: &Path, file: &ProblemFile, found: &Comparison) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
-    for entry in &found.entries {
-        if let Ok(plan) = &entry.plan {
-            let own = OutputFolder::create(&path.join(entry.method.name()))?;
-            files.extend(super::plan::write(file, plan, &own)?.1);
+/// Adds every plan to `set`, in a folder of its method; where a method has none, those of an earlier
+/// comparison go.
+fn add(
+    path: &Path,
+    file: &ProblemFile,
+    found: &Comparison,
+    set: &mut FileSet,
+) -> Result<(), Failure> {
+    for method in Method::ALL {
+        let own = path.join(method.name());
+        match found.by(method) {
+            Some(plan) => {
+                let own = OutputFolder::create(&own)?;
+                super::plan::add(file, plan, &own, set)?;
+            }
+            None if own.is_dir() => super::plan::remove(&OutputFolder::create(&own)?, set),
+            None => {}
         }
     }
-    Ok(files)
+    Ok(())
 }

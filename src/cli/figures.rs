@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::steps::Steps;
 use super::{Outcome, terminal};
-use crate::report::OutputFolder;
+use crate::report::{FileSet, OutputFolder};
 use crate::reproduction::figures::{self, Plans};
 use crate::reproduction::{Session, Step, bounds};
 use clap::Args;
@@ -26,14 +26,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let plans = Plans::make(&mut session)?;
     let (bounded, _) = bounds::bounded(&mut session)?;
     steps.finish();
-    for drawn in figures::all(&plans, &bounded) {
-        let [svg, png] = folder.write_figure(&drawn.name, &drawn.figure)?;
-        terminal::print(&format!(
-            "{}\n  {}\n  {}\n",
-            drawn.caption,
-            svg.display(),
-            png.display()
-        ))?;
+    let drawn = figures::all(&plans, &bounded);
+    let mut set = FileSet::new();
+    for one in &drawn {
+        set.add_figure(&folder, &one.name, &one.figure)?;
+    }
+    for (one, files) in drawn.iter().zip(set.write()?.chunks(2)) {
+        let files: String = files
+            .iter()
+            .map(|f| format!("  {}\n", f.display()))
+            .collect();
+        terminal::print(&format!("{}\n{files}", one.caption))?;
     }
     Ok(Outcome::Done)
 }

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::steps::Steps;
 use super::{Outcome, terminal};
 use crate::config::FitFile;
-use crate::report::OutputFolder;
+use crate::report::{FileSet, OutputFolder};
 use crate::reproduction::{Session, Step, platform};
 use std::path::{Path, PathBuf};
 
@@ -22,10 +22,10 @@ pub(super) fn run(path: &Path, out: Option<&PathBuf>) -> Result<Outcome, Failure
         message: error.to_string(),
     })?;
     let text = report.markdown();
-    let files = [
-        folder.write("fit.md", &text)?,
-        folder.write("fit.json", &json)?,
-    ];
+    let mut set = FileSet::new();
+    set.add(&folder, "fit.md", &text);
+    set.add(&folder, "fit.json", &json);
+    let files = set.write()?;
     terminal::results(&text, &files, None)?;
     Ok(Outcome::Done)
 }

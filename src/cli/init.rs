@@ -6,7 +6,7 @@ use super::{Outcome, terminal};
 use crate::config::{Starter, StarterJoint};
 use crate::ocp::Interval;
 use crate::problem::Unit;
-use crate::report::{Lines, OutputError, OutputFolder};
+use crate::report::{FileSet, Lines, OutputError, OutputFolder};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -142,10 +142,11 @@ fn write(path: &Path, files: &[(String, Vec<u8>)], lines: &mut Lines) -> Result<
         )),
         other => other.into(),
     })?;
-    let mut written = Vec::new();
+    let mut set = FileSet::new();
     for (name, bytes) in files {
-        written.push(folder.write_bytes(name, bytes)?);
+        set.add_bytes(&folder, name, bytes);
     }
+    let written = set.write()?;
     let problem = written[0].display().to_string();
     lines.files(&written);
     lines.add("look at it", format!("ffsm-ipopt check {problem}"));

@@ -23,6 +23,7 @@ mod table2;
 mod terminal;
 mod verify;
 
+use crate::config;
 use crate::parallel;
 use crate::solution::Build;
 use clap::{Parser, Subcommand};
@@ -52,6 +53,10 @@ struct Cli {
     /// Most threads to use, instead of one a processor; results are the same
     #[arg(long, global = true, env = "FFSM_THREADS", value_name = "N", value_parser = threads_of)]
     threads: Option<NonZero<usize>>,
+
+    /// Let files set options of Ipopt that load libraries or read and write files
+    #[arg(long, global = true)]
+    trust_options: bool,
 }
 
 const EXIT_STATUS: &str = "Exit status: 0 solved, 1 internal or I/O failure, 2 bad usage or \
@@ -86,10 +91,18 @@ fn threads_of(text: &str) -> Result<NonZero<usize>, &'static str> {
 /// Results go to standard output, all else to standard error. Bad usage ends the process here
 /// with status 2.
 pub fn run() -> ExitCode {
-    let Cli { command, threads } = Cli::parse();
+    let Cli {
+        command,
+        threads,
+        trust_options,
+    } = Cli::parse();
+    if trust_options {
+        config::trust_options();
+    }
     if let Some(threads) = threads {
         parallel::set_thread_count(threads);
     }
+    interrupt::guard();
     let result = match command {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
@@ -109,8 +122,7 @@ pub fn run() -> ExitCode {
     match result {
         Ok(outcome) => ExitCode::from(outcome as u8),
         Err(failure) => {
-            // One line, whatever names it quotes.
-            terminal::warn(&failure.to_string().replace('\n', "\\n"));
+            terminal::complain(&failure.to_string());
             ExitCode::from(failure.code())
         }
     }

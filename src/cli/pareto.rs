@@ -6,7 +6,7 @@ use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::Status;
-use crate::report::{OutputFolder, ParetoReport};
+use crate::report::{FileSet, OutputFolder, ParetoReport};
 use crate::study::pareto::{ParetoFront, balanced, factors};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -82,7 +82,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let report = ParetoReport::of(&problem.name, front.points(), &notes);
     let to = ("pareto", &folder);
     let (text, figure) = (report.markdown(), report.figure());
-    rows::write(to, &report, &text, &figure, Vec::new(), arguments.json)?;
+    rows::write(to, &report, &text, &figure, FileSet::new(), arguments.json)?;
     Ok(outcome(
         front.points().iter().map(|point| point.plan.status),
     ))

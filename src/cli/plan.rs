@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::{Outcome, interrupt, terminal};
 use crate::config::{ConfigError, Overrides, ProblemFile};
 use crate::planner::{Method, Plan, Planner, Status};
-use crate::report::{self, OutputFolder};
+use crate::report::{self, FileSet, OutputFolder};
 use crate::solution::{self, Provenance};
 use crate::verify;
 use clap::builder::PossibleValue;
@@ -47,6 +47,12 @@ pub(super) struct Arguments {
     #[arg(long)]
     quiet: bool,
 }
+
+const SOLUTION: &str = "solution.json";
+const TRAJECTORY: &str = "trajectory.csv";
+const PAGE: &str = "report.html";
+/// What `verify` writes.
+pub(super) const VERIFICATION: &str = "verification.json";
 
 /// A planner by its name.
 #[derive(Debug, Clone, Copy)]
@@ -122,7 +128,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut plan = plan.map_err(|error| Failure::planning(&file, warm_start, error))?;
     plan.verify(&file.problem);
 
-    let (json, files) = write(&file, &plan, &folder)?;
+    let mut set = FileSet::new();
+    let json = add(&file, &plan, &folder, &mut set)?;
+    let files = set.write()?;
     let summary = || report::summary(&file.problem, &plan, &files);
     if arguments.json {
         terminal::print(&json)?;
@@ -146,19 +154,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 /// What a user should know of how the files were read.
 pub(super) fn say(file: &ProblemFile) {
     for change in &file.repairs {
-        terminal::warn(&format!("warning: {change}"));
+        terminal::complain(&format!("warning: {change}"));
     }
     for note in &file.notes {
-        terminal::warn(&format!("note: {note}"));
+        terminal::complain(&format!("note: {note}"));
     }
 }
 
-/// Writes the files of a plan; the text of `solution.json` and the paths are returned.
-pub(super) fn write(
+/// Adds the files of a plan to `set`; the text of `solution.json` is returned.
+pub(super) fn add(
     file: &ProblemFile,
     plan: &Plan,
     folder: &OutputFolder,
-) -> Result<(String, Vec<PathBuf>), Failure> {
+    set: &mut FileSet,
+) -> Result<String, Failure> {
     let provenance = Provenance::of(file, &plan.linear_solver);
     let saved = solution::solution(&file.problem.name, plan, provenance);
     let failure = |message: String| Failure::Format {
@@ -168,14 +177,23 @@ pub(super) fn write(
     let json = solution::to_json(&saved).map_err(|error| failure(error.to_string()))?;
     let csv =
         solution::trajectory_csv(&saved.trajectory).map_err(|error| failure(error.to_string()))?;
-    let mut files = vec![
-        folder.write("solution.json", &json)?,
-        folder.write("trajectory.csv", &csv)?,
-    ];
+    set.add(folder, SOLUTION, &json);
+    set.add(folder, TRAJECTORY, &csv);
     // A trajectory with values that are no numbers has nothing to show.
     if verify::check(&file.problem, &plan.discretization).is_ok() {
         let page = report::page(&saved, &file.problem, &plan.discretization);
-        files.push(folder.write("report.html", &page)?);
+        set.add(folder, PAGE, &page);
+    } else {
+        set.without(folder, PAGE);
     }
-    Ok((json, files))
+    // What was said of an earlier plan.
+    set.without(folder, VERIFICATION);
+    Ok(json)
+}
+
+/// Takes the files of an earlier plan out of `folder`.
+pub(super) fn remove(folder: &OutputFolder, set: &mut FileSet) {
+    for name in [SOLUTION, TRAJECTORY, PAGE, VERIFICATION] {
+        set.without(folder, name);
+    }
 }

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::steps::Steps;
 use super::{Outcome, terminal};
-use crate::report::OutputFolder;
+use crate::report::{FileSet, OutputFolder};
 use crate::reproduction::document::{self, Findings};
 use crate::reproduction::figures::Drawn;
 use crate::reproduction::platform::Platform;
@@ -61,13 +61,16 @@ fn all(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut monitor = |step: Step<'_>| steps.show(step);
     let findings = Findings::gather(&mut Session::new(&mut monitor), arguments.repeat)?;
     steps.finish();
+    let mut set = FileSet::new();
+    set.add(&folder, "reproduction.md", &document::markdown(&findings));
     for (name, text) in document::data(&findings)? {
-        folder.write(&name, &text)?;
+        set.add(&folder, &name, &text);
     }
     for Drawn { name, figure, .. } in document::pictures(&findings) {
-        pictures.write_figure(&name, &figure)?;
+        set.add_figure(&pictures, &name, &figure)?;
     }
-    let path = folder.write("reproduction.md", &document::markdown(&findings))?;
-    terminal::print(&format!("written {}\n", path.display()))?;
+    if let Some(path) = set.write()?.first() {
+        terminal::print(&format!("written {}\n", path.display()))?;
+    }
     Ok(Outcome::Done)
 }

@@ -3,18 +3,17 @@
 use super::failure::Failure;
 use super::terminal;
 use crate::plot::Figure;
-use crate::report::{OutputFolder, Rows};
+use crate::report::{FileSet, OutputFolder, Rows};
 use serde::Serialize;
-use std::path::PathBuf;
 
 /// Writes `rows` as NAME.md, with `text`, NAME.csv, NAME.json and a figure, prints the text and the
-/// paths, `files` first; or the JSON document alone, with the text on standard error.
+/// paths, those of `set` first; or the JSON document alone, with the text on standard error.
 pub(super) fn write<R: Serialize>(
     (name, folder): (&str, &OutputFolder),
     rows: &Rows<'_, R>,
     text: &str,
     figure: &Figure,
-    mut files: Vec<PathBuf>,
+    mut set: FileSet,
     as_json: bool,
 ) -> Result<(), Failure> {
     let failure = |message: String| Failure::Format {
@@ -24,8 +23,9 @@ pub(super) fn write<R: Serialize>(
     let json = rows.json().map_err(|error| failure(error.to_string()))?;
     let csv = rows.csv().map_err(|error| failure(error.to_string()))?;
     for (ending, contents) in [("md", text), ("csv", &csv), ("json", &json)] {
-        files.push(folder.write(&format!("{name}.{ending}"), contents)?);
+        set.add(folder, &format!("{name}.{ending}"), contents);
     }
-    files.extend(folder.write_figure(name, figure)?);
+    set.add_figure(folder, name, figure)?;
+    let files = set.write()?;
     terminal::results(text, &files, as_json.then_some(&json))
 }

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::{Outcome, fit, terminal};
 use crate::config::PlatformFile;
 use crate::dynamics::JointKind;
-use crate::report::{OutputFolder, Simulation};
+use crate::report::{FileSet, OutputFolder, Simulation};
 use crate::simulate::{Player, SimulateError};
 use crate::solution::Saved;
 use clap::Args;
@@ -60,11 +60,11 @@ fn play(arguments: &Arguments, solution: &Path, platform: &Path) -> Result<Outco
         file.platform.seed = seed;
     }
     let player = Player::new(problem, &saved.plan, file.platform.clone()).map_err(failure)?;
-    let default = || {
-        let stem = platform.file_stem().unwrap_or_default();
-        Path::new("out").join(&problem.name).join(stem)
+    let out = match &arguments.out {
+        Some(out) => out.clone(),
+        None => Path::new("out").join(&problem.name).join(file.folder()?),
     };
-    let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
+    let folder = OutputFolder::create(&out)?;
 
     let runs = player.runs().map_err(failure)?;
     let simulation = Simulation {
@@ -86,11 +86,11 @@ fn play(arguments: &Arguments, solution: &Path, platform: &Path) -> Result<Outco
     };
     let json = simulation.json().map_err(|e| format(e.to_string()))?;
     let csv = simulation.csv().map_err(|e| format(e.to_string()))?;
-    let mut files = vec![
-        folder.write("simulation.json", &json)?,
-        folder.write("simulation.csv", &csv)?,
-    ];
-    files.extend(folder.write_figure("simulation", &simulation.figure())?);
+    let mut set = FileSet::new();
+    set.add(&folder, "simulation.json", &json);
+    set.add(&folder, "simulation.csv", &csv);
+    set.add_figure(&folder, "simulation", &simulation.figure())?;
+    let files = set.write()?;
     terminal::print(&simulation.summary(&files))?;
     Ok(Outcome::Done)
 }

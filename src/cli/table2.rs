@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::steps::Steps;
 use super::{Outcome, terminal};
 use crate::nlp::ipopt;
-use crate::report::OutputFolder;
+use crate::report::{FileSet, OutputFolder};
 use crate::reproduction::table2::{self, Row, SensitivityRow, SweepRow};
 use crate::solution::{Build, to_json};
 use clap::Args;
@@ -83,14 +83,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     terminal::print(&text)?;
     files.push(("table2.json", json));
     files.push(("table2.md", text));
-    let mut written = Vec::new();
+    let mut set = FileSet::new();
     for (name, contents) in &files {
-        written.push(folder.write(name, contents)?);
+        set.add(&folder, name, contents);
     }
     if let Some(rows) = &sweep {
-        written.extend(folder.write_figure("sweep", &table2::sweep_figure(rows))?);
+        set.add_figure(&folder, "sweep", &table2::sweep_figure(rows))?;
     }
-    for path in written {
+    for path in set.write()? {
         terminal::print(&format!("written {}\n", path.display()))?;
     }
     Ok(Outcome::Done)

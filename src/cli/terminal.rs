@@ -1,17 +1,26 @@
 //! Writing for people and pipes.
 
 use super::failure::Failure;
+use crate::nlp::ipopt::interrupt::requested;
+use crate::printable::{one_line, printable};
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
-/// Writes to standard output. A reader that has gone away is no failure.
+/// Longest line of a message, characters.
+const LONGEST: usize = 1_000;
+
+/// Writes to standard output. A reader that has gone away is no failure, as a terminal that was
+/// closed is none.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
+    let text = printable(text);
     let mut stdout = std::io::stdout().lock();
     match stdout
         .write_all(text.as_bytes())
         .and_then(|()| stdout.flush())
     {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Terminal(error)),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe && !requested() => {
+            Err(Failure::Terminal(error))
+        }
         _ => Ok(()),
     }
 }
@@ -30,7 +39,12 @@ pub(super) fn results(text: &str, files: &[PathBuf], json: Option<&String>) -> R
     print(&format!("{text}\n{}", written.collect::<String>()))
 }
 
-/// Writes a line to standard error, where nothing can be done about a failure.
-pub(super) fn warn(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", line.trim_end());
+/// Writes a message of one line to standard error, whatever names it quotes.
+pub(super) fn complain(message: &str) {
+    warn(&one_line(message, LONGEST));
+}
+
+/// Writes lines to standard error, where nothing can be done about a failure.
+pub(super) fn warn(lines: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", printable(lines.trim_end()));
 }

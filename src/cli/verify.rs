@@ -1,6 +1,7 @@
 //! `verify`: a saved plan integrated again.
 
 use super::failure::Failure;
+use super::plan::VERIFICATION;
 use super::{Outcome, terminal};
 use crate::dynamics::JointKind;
 use crate::report::{OutputFolder, verification_json, verification_summary};
@@ -35,7 +36,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         path: path.display().to_string(),
         message: error.to_string(),
     })?;
-    let files = [folder.write("verification.json", &json)?];
+    let files = [folder.write(VERIFICATION, &json)?];
     let joints = problem.robot.joints();
     terminal::print(&verification_summary(
         &problem.name,

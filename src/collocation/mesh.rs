@@ -17,6 +17,16 @@ pub enum MeshError {
         /// Segment, counted from 1.
         segment: usize,
     },
+    /// More points than memory should be asked for.
+    #[error("{what} of {found} collocation points; expected at most {most}")]
+    TooMany {
+        /// "a mesh" or "a segment".
+        what: &'static str,
+        /// How many there would be; the largest number there is where that is no number.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// One more breakpoint than segments is needed.
     #[error("{breakpoints} breakpoints do not bound {segments} segments")]
     Mismatch {
@@ -50,6 +60,27 @@ pub struct Mesh {
 const NEAR: f64 = 0.1;
 
 impl Mesh {
+    /// Most collocation points of a mesh.
+    pub const MOST_POINTS: usize = 50_000;
+    /// Most collocation points of a segment, whose differentiation matrix is dense.
+    pub const MOST_POINTS_IN_SEGMENT: usize = 1_000;
+
+    /// Whether so many points can be had.
+    fn count(points: impl Iterator<Item = usize>) -> Result<(), MeshError> {
+        let mut sum = 0usize;
+        let too_many = |what, found, most| Err(MeshError::TooMany { what, found, most });
+        for n in points {
+            if n > Self::MOST_POINTS_IN_SEGMENT {
+                return too_many("a segment", n, Self::MOST_POINTS_IN_SEGMENT);
+            }
+            sum += n;
+        }
+        match sum > Self::MOST_POINTS {
+            true => too_many("a mesh", sum, Self::MOST_POINTS),
+            false => Ok(()),
+        }
+    }
+
     /// A mesh from breakpoints (S + 1, rising from 0 to 1) and points in each segment (S).
     ///
     /// # Errors
@@ -67,6 +98,7 @@ impl Mesh {
         if let Some(s) = points.iter().position(|&n| n == 0) {
             return Err(MeshError::NoPoints { segment: s + 1 });
         }
+        Self::count(points.iter().copied())?;
         let last = points.len();
         for (index, &value) in breakpoints.iter().enumerate() {
             let good = match index {
@@ -101,8 +133,16 @@ impl Mesh {
     /// `segments` equal segments with `points` LGR points each.
     ///
     /// # Errors
-    /// [`MeshError`] where either is zero.
+    /// [`MeshError`] where either is zero, or there would be too many points.
     pub fn uniform(segments: usize, points: usize) -> Result<Self, MeshError> {
+        let all = segments.saturating_mul(points);
+        if all > Self::MOST_POINTS {
+            return Err(MeshError::TooMany {
+                what: "a mesh",
+                found: all,
+                most: Self::MOST_POINTS,
+            });
+        }
         let breakpoints = (0..=segments)
             .map(|s| s as f64 / segments.max(1) as f64)
             .collect();

@@ -7,6 +7,9 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// Largest document, bytes: every value is kept with its place, which takes many times its text.
+const LARGEST: usize = 4 << 20;
+
 /// A value and where it was given.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Node {
@@ -36,7 +39,14 @@ impl Node {
             source: source.clone(),
             line,
         };
-        let lines = Lines { source, text };
+        if text.len() > LARGEST {
+            let message = format!("the file is larger than {} MiB", LARGEST >> 20);
+            return Err(ConfigError::Format {
+                place: place(None),
+                message,
+            });
+        }
+        let lines = Lines::new(source, text);
         let table = DeTable::parse(text).map_err(|error| {
             let at = error.span().map_or(place(None), |span| lines.place(&span));
             ConfigError::Format {
@@ -118,16 +128,23 @@ fn syntax(message: &str) -> String {
 
 struct Lines<'a> {
     source: &'a Arc<str>,
-    text: &'a str,
+    /// Positions of the line breaks.
+    breaks: Vec<usize>,
 }
 
-impl Lines<'_> {
+impl<'a> Lines<'a> {
+    fn new(source: &'a Arc<str>, text: &str) -> Self {
+        let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        Self {
+            source,
+            breaks: breaks.map(|(position, _)| position).collect(),
+        }
+    }
+
     fn place(&self, span: &Range<usize>) -> Place {
-        let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
-        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
         Place {
             source: self.source.clone(),
-            line: Some(line),
+            line: Some(1 + self.breaks.partition_point(|at| *at < span.start)),
         }
     }
 

@@ -1,8 +1,11 @@
 //! Where files are read from: the disk, those shipped inside the program, texts kept elsewhere.
 
 use super::document::Node;
-use super::{ConfigError, Place, xml_text};
+use super::{ConfigError, Place, regular, xml_text};
 use std::path::{Component, Path, PathBuf};
+
+/// Largest file of a problem, a robot or a platform, bytes.
+const LARGEST: u64 = 32 << 20;
 
 /// Where the files of a problem are read from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +124,7 @@ impl Files<'_> {
         decode: fn(Vec<u8>) -> Result<String, String>,
     ) -> Result<String, String> {
         match self {
-            Self::Disk => decode(std::fs::read(path).map_err(|error| error.to_string())?),
+            Self::Disk => decode(regular::read(path, LARGEST)?),
             Self::Shipped => SHIPPED
                 .iter()
                 .find(|(name, _)| Path::new(name) == without_parents(path))

@@ -3,7 +3,7 @@
 use super::ConfigError;
 use super::figures::{Figures, Unusable, last_digit};
 use super::item::{Item, Section};
-use crate::dynamics::{Inertia, InertiaError, Placement};
+use crate::dynamics::{Inertia, InertiaError, Placement, Quantity};
 use nalgebra::{Matrix3, Vector3};
 
 /// Reads the mass properties among the keys of `section`.
@@ -29,14 +29,28 @@ fn body(figures: &Figures) -> Result<Inertia, InertiaError> {
 }
 
 fn figures(section: &Section<'_>) -> Result<Figures, ConfigError> {
-    let mass = section.require("mass", "a finite mass above zero, kg")?;
-    let mass = mass.positive("a finite mass above zero, kg")?;
+    let mass_item = section.require("mass", "a finite mass above zero, kg")?;
+    let mass = mass_item.positive("a finite mass above zero, kg")?;
     let center = match section.get("com") {
         Some(item) => item.triple("an array of 3 lengths, m")?,
         None => [0.0; 3],
     };
     let item = section.require("inertia", EXPECTED)?;
     let own = matrix(item)?;
+    if let Err(cause @ InertiaError::TooLarge { quantity, .. }) =
+        Inertia::new(mass, center.into(), own)
+    {
+        let item = match quantity {
+            Quantity::Mass => mass_item,
+            Quantity::Center => section.get("com").unwrap_or(mass_item),
+            Quantity::Inertia => item,
+        };
+        return Err(ConfigError::Inertia {
+            place: item.node.place.clone(),
+            key: item.key.clone(),
+            cause,
+        });
+    }
     Ok(Figures {
         place: item.node.place.clone(),
         key: item.key.clone(),

@@ -2,6 +2,13 @@
 
 use super::document::{Node, Value};
 use super::{ConfigError, Place};
+use crate::printable::one_line;
+
+/// Largest magnitude of any number: products of several do not overflow.
+const MOST: f64 = 1e30;
+
+/// Longest part of a key in messages, characters.
+const LONGEST_NAME: usize = 80;
 
 /// A value with its full key path.
 #[derive(Debug, Clone)]
@@ -23,8 +30,10 @@ impl<'a> Item<'a> {
     }
 
     fn path(&self, name: &str) -> String {
+        // A quoted key may hold anything.
+        let name = one_line(name, LONGEST_NAME);
         if self.key.is_empty() {
-            name.into()
+            name
         } else {
             format!("{}.{name}", self.key)
         }
@@ -109,10 +118,13 @@ impl<'a> Item<'a> {
         }
     }
 
-    /// A finite number.
+    /// A finite number of a magnitude that makes sense in some unit.
     pub(super) fn number(&self, expected: &str) -> Result<f64, ConfigError> {
         match self.as_number() {
-            Some(number) if number.is_finite() => Ok(number),
+            Some(number) if number.abs() <= MOST => Ok(number),
+            Some(number) if number.is_finite() => {
+                Err(self.unexpected(format!("{expected}, of a magnitude up to {MOST:e}")))
+            }
             _ => Err(self.unexpected(expected)),
         }
     }
@@ -191,10 +203,13 @@ impl<'a> Section<'a> {
 
 /// The nearest of `known`, or all of them.
 pub(super) fn hint(name: &str, known: &[&str]) -> String {
+    // What is longer is no typing error, and takes its length times theirs to compare.
+    const LONGEST: usize = 80;
+    let known_short = known.iter().filter(|candidate| candidate.len() <= LONGEST);
+    let known_short = known_short.filter(|_| name.len() <= LONGEST);
     let distance = |candidate: &str| strsim::damerau_levenshtein(name, candidate);
     let near = |candidate: &&&str| distance(candidate) <= 1 + candidate.len().max(name.len()) / 4;
-    match known
-        .iter()
+    match known_short
         .filter(near)
         .min_by_key(|candidate| distance(candidate))
     {

@@ -4,9 +4,10 @@ use super::document::{Node, quoted};
 use super::files::Files;
 use super::item::{Item, Section};
 use super::robot::{self, Robot, RobotFile};
+use super::trust::Origin;
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, long_way, tables};
-use crate::problem::{Problem, ProblemBuilder, ProblemError};
+use crate::problem::{EXPECTED_NAME, Problem, ProblemBuilder, ProblemError, is_name};
 use std::path::Path;
 
 /// A problem and the files it was read from.
@@ -180,7 +181,11 @@ fn read(
         tables::mesh(item, &mut problem.mesh)?;
     }
     if let Some(item) = root.get("solver") {
-        tables::solver(item, &mut problem.solver)?;
+        let origin = match files {
+            Files::Kept(_) => Origin::Kept,
+            Files::Disk | Files::Shipped => Origin::CommandLine,
+        };
+        tables::solver(item, &mut problem.solver, origin)?;
     }
     let note = attitude
         .filter(|_| problem.robot.plane().is_some())
@@ -196,16 +201,29 @@ fn read(
 /// The name, which names the output folder as well; that of the file unless given.
 pub(super) fn name(root: &Section<'_>, path: &Path) -> Result<String, ConfigError> {
     let Some(item) = root.get("name") else {
-        let stem = path
-            .file_stem()
-            .map(|stem| stem.to_string_lossy().into_owned());
-        return Ok(stem.unwrap_or_else(|| "problem".into()));
+        return name_of(path);
     };
-    let name = item.text("a string")?;
-    let harmless = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
-    if name.trim() != name || name.trim_matches('.').is_empty() || !name.chars().all(harmless) {
-        let expected = "letters, digits, '-', '_' and '.', for it names the output folder";
-        return Err(item.error(quoted(name), expected));
+    match item.text("a string")? {
+        name if is_name(name) => Ok(name.into()),
+        name => Err(item.error(quoted(name), EXPECTED_NAME)),
     }
-    Ok(name.into())
+}
+
+/// A name made of that of the file at `path`: what may not be in one is left out.
+pub(super) fn name_of(path: &Path) -> Result<String, ConfigError> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let may_be = |c: char| if is_name(&format!("a{c}a")) { c } else { '-' };
+    let name: String = stem.trim().chars().map(may_be).collect();
+    if is_name(&name) {
+        return Ok(name);
+    }
+    Err(ConfigError::Value {
+        place: Place {
+            source: path.display().to_string().into(),
+            line: None,
+        },
+        key: "name".into(),
+        found: format!("not given, and that of the file is {}", quoted(&stem)),
+        expected: EXPECTED_NAME.into(),
+    })
 }

@@ -6,15 +6,18 @@ use super::goal;
 use super::item::Item;
 use super::keep_out;
 use super::robot::Robot;
+use super::trust::Origin;
 use super::values::Components;
 use super::way_point;
+use crate::nlp::ipopt::{reach_of_option, reach_of_solver};
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::problem::{ComponentKind, Cost, CostId, LimitId, Limits, Momentum, Task};
 use crate::refine::{self, Method};
 use std::time::Duration;
 
-/// Most segments and mesh iterations: beyond them a typing error is more likely than a wish.
+/// Most segments and mesh iterations: beyond them a typing error is more likely than a wish. How many
+/// points a mesh may have in all is checked with the problem.
 const MOST: usize = 100_000;
 /// Most LGR points in one segment.
 const MOST_POINTS: usize = 1_000;
@@ -252,7 +255,11 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
 }
 
 /// `[solver]`.
-pub(super) fn solver(item: &Item<'_>, solver: &mut nlp::Settings) -> Result<(), ConfigError> {
+pub(super) fn solver(
+    item: &Item<'_>,
+    solver: &mut nlp::Settings,
+    origin: Origin,
+) -> Result<(), ConfigError> {
     let section = item.section(&[
         "tolerance",
         "max_iterations",
@@ -274,6 +281,7 @@ pub(super) fn solver(item: &Item<'_>, solver: &mut nlp::Settings) -> Result<(), 
     if let Some(item) = section.get("linear_solver") {
         let expected = "\"auto\", \"multifrontal\", or Ipopt's name of a linear solver";
         solver.linear_solver = item.text(expected)?.into();
+        origin.check(item, reach_of_solver(&solver.linear_solver))?;
     }
     if let Some(item) = section.get("options") {
         for item in item.entries("a table of Ipopt's options by name")? {
@@ -287,6 +295,7 @@ pub(super) fn solver(item: &Item<'_>, solver: &mut nlp::Settings) -> Result<(), 
                 _ => None,
             };
             let value = value.ok_or_else(|| item.unexpected("a finite number or a string"))?;
+            origin.check(&item, reach_of_option(item.name, &value))?;
             solver.options.push((item.name.into(), value));
         }
     }

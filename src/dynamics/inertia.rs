@@ -1,6 +1,7 @@
 //! Mass properties of one rigid body.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use std::fmt;
 
 /// Mass properties that no rigid body has.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -15,6 +16,14 @@ pub enum InertiaError {
     /// The mass centre is not finite.
     #[error("mass centre {0:?} m is not finite")]
     Center([f64; 3]),
+    /// A figure that no robot has. Products of such figures overflow.
+    #[error("{quantity} of {value:e} {unit}, expected at most {most:e} {unit}", unit = .quantity.unit(), most = .quantity.most())]
+    TooLarge {
+        /// Which figure.
+        quantity: Quantity,
+        /// Its value.
+        value: f64,
+    },
     /// A component of the inertia matrix is not finite.
     #[error("inertia has a component that is not finite")]
     NotFinite,
@@ -40,6 +49,60 @@ pub enum InertiaError {
         "inertia breaks the triangle inequality: principal moments {0:.6e}, {1:.6e}, {2:.6e} kg m², the largest may not exceed the sum of the others"
     )]
     Triangle(f64, f64, f64),
+}
+
+/// A figure of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Mass.
+    Mass,
+    /// A coordinate of the mass centre.
+    Center,
+    /// A component of the inertia matrix.
+    Inertia,
+}
+
+impl Quantity {
+    /// The largest magnitude there may be, in its unit: far above any spacecraft, and far below what
+    /// overflows in products.
+    pub const fn most(self) -> f64 {
+        match self {
+            Self::Mass => 1e15,
+            Self::Center => super::MOST_LENGTH,
+            Self::Inertia => 1e30,
+        }
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Mass => "kg",
+            Self::Center => "m",
+            Self::Inertia => "kg m²",
+        }
+    }
+
+    /// Whether the magnitude of one of `values` is too large.
+    fn check(self, values: &[f64]) -> Result<(), InertiaError> {
+        match values.iter().find(|value| value.abs() > self.most()) {
+            Some(&value) => Err(InertiaError::TooLarge {
+                quantity: self,
+                value,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mass => "a mass",
+            Self::Center => "a mass centre with a coordinate",
+            Self::Inertia => "an inertia",
+        })
+    }
 }
 
 /// Square of a radius of gyration, m², below which a body counts as a point.
@@ -93,6 +156,9 @@ impl Inertia {
         if rotational.iter().any(|c| !c.is_finite()) {
             return Err(InertiaError::NotFinite);
         }
+        Quantity::Mass.check(&[mass])?;
+        Quantity::Center.check(center.as_slice())?;
+        Quantity::Inertia.check(rotational.as_slice())?;
         let scale = rotational.amax();
         for (row, column) in [(0, 1), (0, 2), (1, 2)] {
             let gap = (rotational[(row, column)] - rotational[(column, row)]).abs();

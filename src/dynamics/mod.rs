@@ -42,8 +42,11 @@ mod sensitivity;
 pub mod space;
 mod tree;
 
+/// Largest magnitude of a length in a robot's description, m: farther than the moon.
+pub const MOST_LENGTH: f64 = 1e9;
+
 pub use data::Data;
-pub use inertia::{Inertia, InertiaError};
+pub use inertia::{Inertia, InertiaError, Quantity};
 pub use joint::{Body, EndEffector, Joint, JointKind, JointLimits};
 pub use ldl::Ldl;
 pub use model::{Model, ModelError};

@@ -2,6 +2,7 @@
 
 use super::planarity::{self, Deviation, Plane};
 use super::{Body, EndEffector, InertiaError, Joint, Placement, massless};
+use std::collections::HashSet;
 
 /// A robot that cannot be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -18,6 +19,17 @@ pub enum ModelError {
     Order {
         /// Name of the joint.
         joint: String,
+    },
+    /// A joint farther from its carrier than anything is.
+    #[error(
+        "joint '{joint}' is {distance:e} m from the frame that carries it, expected at most {:e} m",
+        super::MOST_LENGTH
+    )]
+    TooFar {
+        /// Name of the joint.
+        joint: String,
+        /// The distance, m.
+        distance: f64,
     },
     /// A base that cannot carry anything.
     #[error(
@@ -71,18 +83,26 @@ impl Model {
         if joints.is_empty() {
             return Err(ModelError::NoJoints(name.into()));
         }
+        let mut joint_names = HashSet::new();
+        let mut body_names = HashSet::from([base.name.as_str()]);
         for (j, joint) in joints.iter().enumerate() {
+            let distance = joint.placement.translation.amax();
+            if distance.is_nan() || distance > super::MOST_LENGTH {
+                return Err(ModelError::TooFar {
+                    joint: joint.name.clone(),
+                    distance,
+                });
+            }
             if joint.parent.is_some_and(|parent| parent >= j) {
                 return Err(ModelError::Order {
                     joint: joint.name.clone(),
                 });
             }
-            if joints[..j].iter().any(|other| other.name == joint.name) {
+            if !joint_names.insert(joint.name.as_str()) {
                 return Err(ModelError::DuplicateName(joint.name.clone()));
             }
-            let body = &joint.body.name;
-            if base.name == *body || joints[..j].iter().any(|other| other.body.name == *body) {
-                return Err(ModelError::DuplicateName(body.clone()));
+            if !body_names.insert(joint.body.name.as_str()) {
+                return Err(ModelError::DuplicateName(joint.body.name.clone()));
             }
         }
         if !base.inertia.is_solid() {

@@ -22,7 +22,7 @@ impl Planner {
         start: Option<&Start>,
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Plan, PlanError> {
-        match method {
+        let plan = match method {
             Method::Collocation(method) if problem.mesh.method == method => {
                 self.plan_with(problem, start, monitor)
             }
@@ -35,6 +35,7 @@ impl Planner {
             Method::StraightLine => quintic::plan(problem),
             Method::ReactionNullSpace => reaction_null_space::plan(problem),
             Method::AccelerationQp => acceleration_qp::plan(problem, monitor),
-        }
+        };
+        plan.map(Plan::judged_finite)
     }
 }

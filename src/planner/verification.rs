@@ -14,6 +14,56 @@ const OF_LIMIT: f64 = 0.1;
 const NEGLIGIBLE: f64 = 1e-3;
 
 impl Plan {
+    /// The plan, which counts as not converged where a figure of it is not a finite number: such a
+    /// plan is no result, whatever its planner made of it.
+    pub(super) fn judged_finite(mut self) -> Self {
+        let Some(what) = self.not_finite() else {
+            return self;
+        };
+        if matches!(self.status, Status::Solved | Status::Infeasible) {
+            self.status = Status::NotConverged;
+            self.diagnosis = None;
+            self.warnings.push(format!(
+                "{what} is not a finite number: the figures of the robot and the task are too far \
+                 apart in size to be planned with"
+            ));
+        }
+        self
+    }
+
+    /// The first thing in the plan that is not finite.
+    fn not_finite(&self) -> Option<&'static str> {
+        let (motion, found) = (&self.trajectory, &self.metrics);
+        let rows = |rows: &[Vec<f64>]| rows.iter().flatten().all(|value| value.is_finite());
+        let all = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        let goals = self
+            .goals
+            .iter()
+            .flat_map(|goal| [goal.distance, goal.angle]);
+        [
+            ("the duration", all(&motion.t)),
+            ("the base attitude", rows(&motion.base_attitude)),
+            ("the base position", rows(&motion.base_position)),
+            ("a base rate", rows(&motion.base_rate)),
+            ("a joint position", rows(&motion.joint_position)),
+            ("a joint rate", rows(&motion.joint_velocity)),
+            ("a control", rows(&motion.control)),
+            ("a joint torque", rows(&motion.joint_torque)),
+            ("the cost J", self.objective.is_finite()),
+            ("the largest error", self.max_error.is_finite()),
+            (
+                "the base displacement",
+                all(&[found.max_base_displacement, found.final_base_displacement]),
+            ),
+            (
+                "the distance from a goal",
+                goals.flatten().all(f64::is_finite),
+            ),
+        ]
+        .into_iter()
+        .find_map(|(what, finite)| (!finite).then_some(what))
+    }
+
     /// Re-integrates the plan by equations that planning has no part in, and judges it by that.
     ///
     /// A solved plan for `problem` counts as not converged where the re-integration fails, or where

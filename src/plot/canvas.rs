@@ -1,6 +1,7 @@
 //! SVG, element by element.
 
 use super::{Colour, Stroke};
+use crate::printable::printable;
 use std::fmt::Write;
 
 /// The family named in the SVG: the one the PNG is drawn with, then common ones of its metrics.
@@ -168,7 +169,8 @@ fn number(value: f64) -> String {
 }
 
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
+    printable(text)
+        .replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")

@@ -1,5 +1,6 @@
 //! PNG from SVG, and the widths of texts, with a font that is part of the program.
 
+use crate::printable::printable;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 use skrifa::instance::{LocationRef, Size};
@@ -92,7 +93,7 @@ const MOST_WIDTHS: usize = 1000;
 
 /// Width of a text in parts of the font size, as usvg lays it out.
 fn laid_out(text: &str) -> f64 {
-    let escaped = text.replace('&', "&amp;").replace('<', "&lt;");
+    let escaped = printable(text).replace('&', "&amp;").replace('<', "&lt;");
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\">\
          <text font-family=\"DejaVu Sans\" font-size=\"100\">{escaped}</text></svg>"

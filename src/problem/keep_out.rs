@@ -1,6 +1,6 @@
 //! Pairs of solids that are kept apart along the path.
 
-use crate::dynamics::Placement;
+use crate::dynamics::{MOST_LENGTH, Placement};
 use nalgebra::{Matrix3, Vector3};
 use std::fmt;
 
@@ -116,7 +116,7 @@ impl Shape {
                 let off = (rotation.transpose() * rotation - Matrix3::identity()).amax();
                 let turned = (off.is_nan() || off > 1e-6)
                     .then(|| ("rotation", rotation.to_string(), "a rotation matrix"));
-                let flat = half.iter().find(|h| !(h.is_finite() && **h > 0.0));
+                let flat = half.iter().find(|h| !(**h <= MOST_LENGTH && **h > 0.0));
                 let flat = flat.map(|h| ("half", h.to_string(), "finite lengths above zero, m"));
                 finite("center", center).or(turned).or(flat)
             }
@@ -125,13 +125,15 @@ impl Shape {
 }
 
 fn finite(key: &'static str, numbers: &[f64]) -> Option<(&'static str, String, &'static str)> {
-    let number = numbers.iter().find(|number| !number.is_finite())?;
-    Some((key, number.to_string(), "finite numbers"))
+    let number = numbers
+        .iter()
+        .find(|number| number.is_nan() || number.abs() > MOST_LENGTH)?;
+    Some((key, number.to_string(), "finite numbers, at most 1e9 m"))
 }
 
 fn length(radius: f64) -> Option<(&'static str, String, &'static str)> {
     let expected = "a finite length, m, zero or above";
-    let wrong = !(radius.is_finite() && radius >= 0.0);
+    let wrong = !(0.0..=MOST_LENGTH).contains(&radius);
     wrong.then(|| ("radius", radius.to_string(), expected))
 }
 

@@ -8,6 +8,7 @@ mod goal;
 mod keep_out;
 mod limit_id;
 mod limits;
+mod magnitude;
 mod momentum;
 mod task;
 mod unit;
@@ -29,4 +30,4 @@ pub use unit::Unit;
 pub use valid::Problem;
 pub use way_point::{Moment, WayPoint};
 
-pub(crate) use validation::check_pair;
+pub(crate) use validation::{EXPECTED_NAME, check_pair, is_name};

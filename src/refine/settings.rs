@@ -1,6 +1,7 @@
 //! Settings of the mesh and its refinement.
 
 use super::Method;
+use crate::collocation::Mesh;
 
 /// First mesh, tolerance and refinement law. Each field says its default.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,6 +78,12 @@ impl Settings {
         if self.max_global_points < self.global_points {
             let expected = format!("at least mesh.global_points, {}", self.global_points);
             return wrong("max_global_points", self.max_global_points, &expected);
+        }
+        let (most, all) = (Mesh::MOST_POINTS, self.segments.saturating_mul(self.points));
+        if all > most {
+            let found = format!("{} of {} points", self.segments, self.points);
+            let expected = format!("at most {most} points in all segments together");
+            return wrong("segments", found, &expected);
         }
         let above_zero = [
             ("tolerance", self.tolerance),

@@ -1,11 +1,13 @@
 //! What planning leaves behind: `solution.json`, `trajectory.csv` and the summary a person reads.
 //!
 //! Files hold SI units and radians with every digit of a double, and are written beside their
-//! place and then renamed: a reader finds the whole file or the one before. docs/solution-file.md
+//! place and then renamed together: a reader finds whole files, and none of an earlier plan beside
+//! those of a new one. docs/solution-file.md
 //! describes the format.
 
 mod comparison;
 mod comparison_figure;
+mod file_set;
 mod fit;
 mod format;
 mod lines;
@@ -22,6 +24,7 @@ mod verification;
 
 pub use comparison::{ComparisonReport, ComparisonRow};
 pub use comparison_figure::comparison_figure;
+pub use file_set::{FileSet, settled};
 pub use fit::{FitReport, reduced};
 pub use format::{centimetres, degrees, rotation, seconds};
 pub use lines::Lines;

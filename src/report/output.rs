@@ -1,9 +1,8 @@
 //! The output folder: known to be writable before anything is solved, files written whole.
 
-use crate::plot::{self, Figure, PlotError};
-use std::fs::Permissions;
-use std::io::{self, Write};
-use std::os::unix::fs::PermissionsExt;
+use super::file_set::FileSet;
+use crate::plot::PlotError;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A folder or file that cannot be written.
@@ -63,50 +62,19 @@ impl OutputFolder {
         }
     }
 
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Writes a file beside its place, then renames it; its path is returned.
     ///
     /// # Errors
     /// [`OutputError::File`]; the file is then as it was before.
-    pub fn write(&self, name: &str, contents: &str) -> Result<PathBuf, OutputError> {
-        self.write_bytes(name, contents.as_bytes())
-    }
-
-    /// [`Self::write`] for what is no text.
-    ///
-    /// # Errors
-    /// [`OutputError::File`]; the file is then as it was before.
-    pub fn write_bytes(&self, name: &str, contents: &[u8]) -> Result<PathBuf, OutputError> {
-        let path = self.path.join(name);
-        let write = || {
-            // A temporary file is the owner's alone; a result is as open as any new file.
-            let mut file = tempfile::Builder::new()
-                .permissions(Permissions::from_mode(0o666))
-                .tempfile_in(&self.path)?;
-            file.write_all(contents)?;
-            file.persist(&path)?;
-            Ok(())
-        };
-        write().map_err(|cause| OutputError::File {
-            path: path.clone(),
-            cause,
-        })?;
-        Ok(path)
-    }
-
-    /// Writes a figure as `name.svg` and `name.png`; their paths are returned.
-    ///
-    /// # Errors
-    /// [`OutputError::File`] and [`OutputError::Figure`].
-    pub fn write_figure(&self, name: &str, figure: &Figure) -> Result<[PathBuf; 2], OutputError> {
-        let svg = figure.svg();
-        let picture = format!("{name}.png");
-        let pixels = plot::png(&svg).map_err(|cause| OutputError::Figure {
-            path: self.path.join(&picture),
-            cause,
-        })?;
-        Ok([
-            self.write(&format!("{name}.svg"), &svg)?,
-            self.write_bytes(&picture, &pixels)?,
-        ])
+    pub fn write(&self, name: &str, text: &str) -> Result<PathBuf, OutputError> {
+        let mut set = FileSet::new();
+        set.add(self, name, text);
+        set.write()?;
+        Ok(self.path.join(name))
     }
 }

@@ -61,4 +61,19 @@ pub enum SimulateError {
         /// Time reached, s.
         time: f64,
     },
+    /// More samples than memory should be asked for.
+    #[error(
+        "{samples:.1e} samples along the plan; expected at most {most:e}: a longer controller.period or a lower capture.rate"
+    )]
+    TooManySamples {
+        /// Samples there would be.
+        samples: f64,
+        /// How many there may be.
+        most: f64,
+    },
+    /// A figure of the motion overflows.
+    #[error(
+        "the simulated motion is not finite; expected a platform and a robot whose figures are not so far apart in size"
+    )]
+    NotFinite,
 }

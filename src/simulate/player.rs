@@ -29,6 +29,9 @@ pub struct Player {
     momentum: (Vector2<f64>, f64),
 }
 
+/// Most samples of the controller, and most frames of the capture.
+const MOST_SAMPLES: f64 = 1e7;
+
 impl Player {
     /// Makes `plan`, whose states are [η, θ, θ̇], ready for `platform`.
     ///
@@ -47,6 +50,14 @@ impl Player {
             });
         };
         verify::check(problem, plan)?;
+        let (controller, capture) = (&platform.controller, &platform.capture);
+        let samples = plan.duration * capture.rate.max(1.0 / controller.period);
+        if samples > MOST_SAMPLES {
+            return Err(SimulateError::TooManySamples {
+                samples,
+                most: MOST_SAMPLES,
+            });
+        }
         let momentum = &problem.task.initial_momentum;
         Ok(Self {
             reference: Arc::new(Reference::new(

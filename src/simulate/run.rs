@@ -46,6 +46,23 @@ pub struct Run {
     pub steps: usize,
 }
 
+impl Run {
+    /// Whether all figures of it are finite numbers.
+    fn is_finite(&self) -> bool {
+        let poses = self.measured.iter().chain(&self.actual).flatten();
+        let joints = self.joint_position.iter().chain(&self.joint_torque);
+        let largest = [
+            self.max_joint_error,
+            self.max_linear_momentum,
+            self.max_angular_momentum,
+        ];
+        poses
+            .chain(joints.flatten())
+            .chain(&largest)
+            .all(|value| value.is_finite())
+    }
+}
+
 /// The robot under torques and forces: y = [q, v], both of length 3 + n.
 struct Plant {
     dynamics: PlanarDynamics,
@@ -233,7 +250,10 @@ impl<'a> Playback<'a> {
         self.observe_errors(reference.samples())?;
         [self.run.max_linear_momentum, self.run.max_angular_momentum] = self.plant.found;
         self.run.steps = integrator.taken();
-        Ok(self.run)
+        match self.run.is_finite() {
+            true => Ok(self.run),
+            false => Err(SimulateError::NotFinite),
+        }
     }
 
     /// Time of the controller's next sample; none after the last.

@@ -17,7 +17,7 @@ pub use build::Build;
 pub use csv::trajectory_csv;
 pub use json::to_json;
 pub use provenance::{ProblemSource, Provenance, TextFile};
-pub use read::{Saved, SolutionError, read_solution};
+pub use read::{Saved, SolutionError, parse_solution, read_solution};
 pub use schema::{
     CostTerm, Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing,
     Trajectory, Verification,

@@ -3,21 +3,25 @@
 use super::provenance::fingerprint;
 use super::{Solution, Trajectory};
 use crate::collocation::{Mesh, MeshError};
-use crate::config::{ConfigError, ProblemFile};
+use crate::config::{ConfigError, ProblemFile, regular};
+use crate::planner::Status;
 use crate::transcription::Discretization;
 use std::path::{Path, PathBuf};
+
+/// Largest solution file, bytes.
+const LARGEST: u64 = 256 << 20;
 
 /// A solution file that cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolutionError {
     /// It cannot be read.
-    #[error("{}: cannot be read: {cause}; expected a solution.json", path.display())]
+    #[error("{}: cannot be read: {reason}; expected a solution.json", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
         /// What the system says.
-        cause: std::io::Error,
+        reason: String,
     },
     /// It is no solution file.
     #[error("{}: {key}: {message}; expected a solution.json of schema 1", path.display())]
@@ -77,7 +81,14 @@ impl Saved {
     /// # Errors
     /// [`SolutionError`]. Whether the plan fits the problem is seen when it is used.
     pub fn load(path: &Path) -> Result<Self, SolutionError> {
-        let solution = read_solution(path)?;
+        Self::of(path, read_solution(path)?)
+    }
+
+    /// What is in `solution`, read before; `path` is named in errors.
+    ///
+    /// # Errors
+    /// [`SolutionError`].
+    pub fn of(path: &Path, solution: Solution) -> Result<Self, SolutionError> {
         let plan = discretization(path, &solution)?;
         let kept = &solution.provenance;
         if kept.robot_sha256 != fingerprint(&kept.robot.text) {
@@ -109,16 +120,26 @@ impl Saved {
 /// # Errors
 /// [`SolutionError`] where it is none, or of another schema.
 pub fn read_solution(path: &Path) -> Result<Solution, SolutionError> {
-    let text = std::fs::read_to_string(path).map_err(|cause| SolutionError::Unreadable {
+    let unreadable = |reason: String| SolutionError::Unreadable {
         path: path.into(),
-        cause,
-    })?;
+        reason,
+    };
+    let bytes = regular::read(path, LARGEST).map_err(unreadable)?;
+    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".into()))?;
+    parse_solution(path, &text)
+}
+
+/// Reads the text of a `solution.json`; `path` is named in errors.
+///
+/// # Errors
+/// [`SolutionError`] where it is none, or of another schema.
+pub fn parse_solution(path: &Path, text: &str) -> Result<Solution, SolutionError> {
     let format = |key: String, message: String| SolutionError::Format {
         path: path.into(),
         key,
         message,
     };
-    let mut deserializer = serde_json::Deserializer::from_str(&text);
+    let mut deserializer = serde_json::Deserializer::from_str(text);
     let solution: Solution = serde_path_to_error::deserialize(&mut deserializer)
         .map_err(|error| format(error.path().to_string(), error.inner().to_string()))?;
     deserializer
@@ -127,7 +148,19 @@ pub fn read_solution(path: &Path) -> Result<Solution, SolutionError> {
     if solution.schema != 1 {
         return Err(format("schema".into(), solution.schema.to_string()));
     }
-    Ok(solution)
+    // null is what is written for a number that is not finite.
+    let figures = [
+        ("objective", solution.objective),
+        ("tolerance", solution.tolerance),
+        ("max_error", solution.max_error),
+    ];
+    match figures.iter().find(|(_, figure)| !figure.is_finite()) {
+        Some((key, _)) if solution.status == Status::Solved => Err(format(
+            (*key).into(),
+            "null, and yet the status is \"solved\"".into(),
+        )),
+        _ => Ok(solution),
+    }
 }
 
 /// The plan of `solution` on its mesh; `path` is named in errors.

@@ -8,6 +8,7 @@ use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
+use crate::largest::largest;
 use crate::ocp::Ocp;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
@@ -77,7 +78,7 @@ pub fn limited_angles(trajectory: &Trajectory) -> Vec<Vec<f64>> {
 
 /// Figures of a trajectory.
 pub(crate) fn metrics(trajectory: &Trajectory) -> Metrics {
-    let peak = |rows: &[Vec<f64>]| rows.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let peak = |rows: &[Vec<f64>]| largest(rows.iter().flatten().map(|value| value.abs()));
     let distance = |row: &[f64]| {
         let start = trajectory.base_position.first().map_or(row, |first| first);
         row.iter()
@@ -91,10 +92,7 @@ pub(crate) fn metrics(trajectory: &Trajectory) -> Metrics {
     Metrics {
         max_base_attitude: peak(&turned),
         final_base_attitude: peak(&[last(&turned)]),
-        max_base_displacement: trajectory
-            .base_position
-            .iter()
-            .fold(0.0, |m, row| m.max(distance(row))),
+        max_base_displacement: largest(trajectory.base_position.iter().map(|row| distance(row))),
         final_base_displacement: distance(&last(&trajectory.base_position)),
         peak_joint_velocity: peak(&trajectory.joint_velocity),
         peak_joint_torque: peak(&trajectory.joint_torque),

@@ -146,7 +146,7 @@ pub(super) fn run<P: Pass>(
                     },
                 })?;
             pass.at_node(mesh.start(s) + i + 1, &y, found);
-            if found.has_nan() {
+            if found.overflows() {
                 return Err(VerifyError::Undefined {
                     pass: P::NAME,
                     time: time(ends[1]),

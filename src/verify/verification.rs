@@ -3,7 +3,7 @@
 /// What re-integration found: largest differences between plan and re-integration.
 ///
 /// Drifts are taken at the nodes of the mesh, momentum and energy after every step. All of them are
-/// numbers: [`verify`](super::verify) fails where one is NaN.
+/// finite: [`verify`](super::verify) fails where one is not.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Verification {
@@ -28,8 +28,8 @@ pub struct Verification {
 }
 
 impl Verification {
-    /// Whether one of the figures is not a number.
-    pub(super) fn has_nan(&self) -> bool {
+    /// Whether one of the figures is not a finite number.
+    pub(super) fn overflows(&self) -> bool {
         [
             self.max_base_attitude_drift,
             self.max_base_position_drift,
@@ -41,6 +41,6 @@ impl Verification {
             self.max_energy_gap,
         ]
         .iter()
-        .any(|figure| figure.is_nan())
+        .any(|figure| !figure.is_finite())
     }
 }

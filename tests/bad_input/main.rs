@@ -7,6 +7,7 @@ mod attitude;
 mod command_line;
 mod complaints;
 mod files;
+mod hostile;
 mod keys;
 mod limits;
 mod numbers;

@@ -1,4 +1,4 @@
-//! Ctrl-C.
+//! Ctrl-C, and other signals that end a program.
 
 use crate::program::{Folder, PROBLEM};
 use serde_json::Value;
@@ -7,6 +7,12 @@ use serde_json::Value;
 /// holds what was written whole and nothing else.
 #[cfg(unix)]
 fn interrupted(command: &str, extra: &[&str]) -> Folder {
+    signalled("INT", command, extra)
+}
+
+/// The same by any signal.
+#[cfg(unix)]
+fn signalled(signal: &str, command: &str, extra: &[&str]) -> Folder {
     use std::process::{Command, Stdio};
     use std::time::Duration;
 
@@ -30,7 +36,7 @@ fn interrupted(command: &str, extra: &[&str]) -> Folder {
     std::thread::sleep(Duration::from_millis(300));
     // The shell's own: a bare Debian has no program of that name.
     let sent = Command::new("sh")
-        .args(["-c", &format!("kill -INT {}", child.id())])
+        .args(["-c", &format!("kill -{signal} {}", child.id())])
         .status()
         .unwrap();
     assert!(sent.success());
@@ -49,6 +55,58 @@ fn an_interrupted_plan_is_written_and_marked() {
     let folder = interrupted("plan", &["--quiet"]);
     let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
     assert_eq!(solution["status"], "interrupted");
+}
+
+/// So does what ends a program from outside, and a terminal that is closed.
+#[cfg(unix)]
+#[test]
+fn a_plan_that_is_terminated_is_written_and_marked() {
+    for signal in ["TERM", "HUP"] {
+        let folder = signalled(signal, "plan", &["--quiet"]);
+        let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
+        assert_eq!(solution["status"], "interrupted", "{signal}");
+    }
+}
+
+/// Killed at any moment, a plan leaves no temporary file and no mixture with an earlier plan.
+#[cfg(unix)]
+#[test]
+fn a_plan_that_is_killed_leaves_no_mixture() {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    let folder = Folder::new(PROBLEM);
+    let first = ["plan", "case.toml", "--quiet", "--out", "o"];
+    assert_eq!(folder.run(&first).code, 0);
+    let old = folder.read("o/trajectory.csv");
+    for milliseconds in [30, 60, 90, 120, 150, 200, 250, 300, 400] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_ffsm-ipopt"))
+            .args(first)
+            .args(["--set", "task.duration=21"])
+            .current_dir(folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        let _ = child.kill();
+        child.wait().unwrap();
+        for entry in std::fs::read_dir(folder.path().join("o")).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            assert!(!name.starts_with('.'), "left behind: {name}");
+        }
+        let csv = std::fs::read_to_string(folder.path().join("o/trajectory.csv"));
+        let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
+        let new = solution["trajectory"]["t"]
+            .as_array()
+            .unwrap()
+            .last()
+            .unwrap()
+            == 21.0;
+        if let Ok(csv) = csv {
+            assert_eq!(csv == old, !new);
+        }
+    }
 }
 
 /// Ctrl-C leaves the plans made until then, the last of them marked.

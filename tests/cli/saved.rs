@@ -188,3 +188,38 @@ fn the_earlier_name_of_the_linear_solver_is_read() {
     }
     assert!(folder.read("a/report.html").contains("multifrontal"));
 }
+
+/// Nothing of an earlier plan stands beside a new one.
+#[test]
+fn the_files_of_a_plan_are_one_set() {
+    let folder = Folder::new(PROBLEM);
+    let plan = ["plan", "case.toml", "--quiet", "--out", "a"];
+    assert_eq!(folder.run(&plan).code, 0);
+    let verify = ["verify", "a/solution.json", "--out", "a"];
+    assert_eq!(folder.run(&verify).code, 0);
+    assert!(folder.path().join("a/verification.json").exists());
+    assert_eq!(folder.run(&plan).code, 0);
+    let names = |folder: &Folder| {
+        let entries = std::fs::read_dir(folder.path().join("a")).unwrap();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    };
+    let set = ["report.html", "solution.json", "trajectory.csv"];
+    assert_eq!(names(&folder), set);
+
+    // Where one cannot be written, none is.
+    let old = folder.read("a/solution.json");
+    std::fs::remove_file(folder.path().join("a/report.html")).unwrap();
+    std::fs::create_dir(folder.path().join("a/report.html")).unwrap();
+    let run = folder.run(&[&plan[..], &["--set", "task.duration=21"]].concat());
+    assert_eq!(run.code, 1, "{run:?}");
+    assert!(
+        run.stderr.starts_with("a/report.html: cannot be written: "),
+        "{run:?}"
+    );
+    assert_eq!(folder.read("a/solution.json"), old);
+    assert_eq!(names(&folder), set);
+}

@@ -53,3 +53,46 @@ fn the_number_of_threads_is_chosen() {
     assert_eq!(run.code, 2, "{run:?}");
     assert!(run.stderr.contains("expected a number from 1"), "{run:?}");
 }
+
+/// A library that has none of the linear solvers it is loaded for ended the process at the first call.
+#[test]
+fn a_library_without_its_linear_solvers_ends_nothing() {
+    use std::process::Command;
+
+    let folder = Folder::new(PROBLEM);
+    let library = folder.path().join("libhsl.so");
+    folder.write("empty.c", "int nothing(void) { return 0; }\n");
+    let made = Command::new("cc")
+        .args(["-shared", "-fPIC", "-o"])
+        .arg(&library)
+        .arg(folder.path().join("empty.c"))
+        .status()
+        .unwrap();
+    assert!(made.success());
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_ffsm-ipopt"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .env("LD_LIBRARY_PATH", folder.path())
+            .output()
+            .unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (
+            output.status.code(),
+            text(output.stdout),
+            text(output.stderr),
+        )
+    };
+    let (code, printed, _) = run(&["doctor"]);
+    assert_eq!(code, Some(0), "{printed}");
+    assert!(
+        printed.contains("linear solvers      multifrontal, mumps"),
+        "{printed}"
+    );
+    for name in ["ma27", "ma57", "ma77", "ma86", "ma97"] {
+        let set = format!("solver.linear_solver={name}");
+        let (code, _, complaint) = run(&["plan", "case.toml", "--set", &set]);
+        assert_eq!(code, Some(2), "{name}: {complaint}");
+        assert!(complaint.contains("solver.linear_solver: "), "{complaint}");
+    }
+}

@@ -37,6 +37,15 @@ impl PlatformFile {
         Self::read(path, Files::Disk, robot)
     }
 
+    /// Reads the text of a platform file; `path` is named in errors.
+    ///
+    /// # Errors
+    /// [`ConfigError`] for the first thing found wrong in it.
+    pub fn parse(path: &Path, text: &str, robot: &Model) -> Result<Self, ConfigError> {
+        let name = path.display().to_string();
+        Self::read(path, Files::Kept(&[(&name, text)]), robot)
+    }
+
     /// One of the platforms shipped in `config/platforms/`, by name ("air-bearing").
     ///
     /// # Errors
@@ -44,6 +53,14 @@ impl PlatformFile {
     pub fn shipped(name: &str, robot: &Model) -> Result<Self, ConfigError> {
         let path = format!("config/platforms/{name}.toml");
         Self::read(Path::new(&path), Files::Shipped, robot)
+    }
+
+    /// The name of a folder for what comes of it: that of the file.
+    ///
+    /// # Errors
+    /// [`ConfigError`] where the name of the file is none for a folder.
+    pub fn folder(&self) -> Result<String, ConfigError> {
+        super::problem::name_of(Path::new(&self.path))
     }
 
     pub(super) fn read(path: &Path, files: Files<'_>, robot: &Model) -> Result<Self, ConfigError> {

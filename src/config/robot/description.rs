@@ -144,10 +144,17 @@ impl Description {
             (other.translation - placement.translation).norm()
                 + (other.rotation - placement.rotation).norm()
         };
-        let names = self.body_names().filter_map(|name| {
-            let (joint, at) = self.body(name)?;
-            (joint == *carrier && apart(&at) < 1e-9).then(|| name.to_owned())
-        });
+        let still = Placement::identity();
+        let base = std::iter::once((&self.base.name, None, &still));
+        let moving = self.joints.iter().enumerate();
+        let moving = moving.map(|(j, entry)| (&entry.joint.body.name, Some(j), &still));
+        let frames = self.frames.iter();
+        let frames = frames.map(|frame| (&frame.name, frame.carrier, &frame.placement));
+        let names = base
+            .chain(moving)
+            .chain(frames)
+            .filter(|(_, joint, at)| joint == carrier && apart(at) < 1e-9)
+            .map(|(name, ..)| name.to_owned());
         // The last is the one nearest to the tip.
         names.last().or_else(|| {
             let body = match carrier {

@@ -1,12 +1,13 @@
 //! The robot file in TOML; docs/robot-file.md describes it.
 
+use super::MOST_JOINTS;
 use super::description::{Description, Entry};
 use crate::config::ConfigError;
 use crate::config::document::{Node, quoted};
 use crate::config::inertia;
 use crate::config::item::{Item, Section};
 use crate::config::values::joint_range;
-use crate::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, Placement};
+use crate::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, MOST_LENGTH, Placement};
 use nalgebra::{Unit, Vector3};
 use std::sync::Arc;
 
@@ -26,7 +27,11 @@ pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigE
     robot.base = body(&base.section(&BODY)?, "base", &mut robot)?;
     let joints = root.require("joints", "one [[joints]] table a joint")?;
     let elements = joints.as_elements().filter(|elements| !elements.is_empty());
-    for item in elements.ok_or_else(|| joints.unexpected("one [[joints]] table a joint"))? {
+    let elements = elements.ok_or_else(|| joints.unexpected("one [[joints]] table a joint"))?;
+    if elements.len() > MOST_JOINTS {
+        return Err(joints.unexpected(format!("at most {MOST_JOINTS} joints")));
+    }
+    for item in elements {
         let joint = joint(&item, &mut robot)?;
         let place = item.node.place.clone();
         robot.joints.push(Entry::new(joint, place));
@@ -132,10 +137,14 @@ fn origin(item: Option<&Item<'_>>) -> Result<Placement, ConfigError> {
             .get(name)
             .map_or(Ok([0.0; 3]), |item| item.triple(expected))
     };
-    Ok(Placement::from_xyz_rpy(
-        triple("xyz", "an array of 3 lengths, m")?,
-        triple("rpy", "an array of 3 angles, rad")?,
-    ))
+    let xyz = triple("xyz", "an array of 3 lengths, m")?;
+    if xyz.iter().any(|length| length.abs() > MOST_LENGTH) {
+        let item = section.get("xyz").unwrap_or(item);
+        let found = format!("{xyz:?}");
+        return Err(item.error(found, format!("3 lengths of at most {MOST_LENGTH:e} m")));
+    }
+    let rpy = triple("rpy", "an array of 3 angles, rad")?;
+    Ok(Placement::from_xyz_rpy(xyz, rpy))
 }
 
 fn axis(item: Option<&Item<'_>>) -> Result<Unit<Vector3<f64>>, ConfigError> {

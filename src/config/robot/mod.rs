@@ -110,6 +110,7 @@ pub(super) fn read(
     };
     if item.as_entries().is_none() {
         let loaded = load(item, item.text(EXPECTED)?, folder, files)?;
+        few_enough(item, &loaded.0)?;
         return Ok(robot(item, Repair::default(), loaded));
     }
     let known = [&["file", "lock", "end_effector"][..], &Repair::KEYS].concat();
@@ -117,6 +118,7 @@ pub(super) fn read(
     let repair = Repair::read(&section)?;
     let path = section.require("file", "the path of a robot file")?;
     let (mut description, file) = load(path, path.text("a path")?, folder, files)?;
+    few_enough(path, &description)?;
     if let Some(item) = section.get("end_effector") {
         let name = item.text("the name of a body or joint")?;
         if !description.set_end_effector(name) {
@@ -153,6 +155,19 @@ fn is_urdf(path: &Path) -> Result<bool, &'static str> {
         Some("urdf" | "xml") => Ok(true),
         Some("xacro") => Err("URDF: run xacro on the file first, xacro arm.urdf.xacro > arm.urdf"),
         _ => Err("a file that ends in .toml or .urdf"),
+    }
+}
+
+/// Most joints that move, those that are locked included: inertia matrices are dense.
+const MOST_JOINTS: usize = 500;
+
+fn few_enough(item: &Item<'_>, robot: &Description) -> Result<(), ConfigError> {
+    match robot.joints.len() {
+        joints if joints > MOST_JOINTS => {
+            let found = format!("{joints} joints that move");
+            Err(item.error(found, format!("at most {MOST_JOINTS}")))
+        }
+        _ => Ok(()),
     }
 }
 

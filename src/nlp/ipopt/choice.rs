@@ -2,6 +2,7 @@
 
 use super::{IpoptError, ma97_bridge};
 use crate::nlp::{LinearSolver, OptionValue, Settings};
+use ipopt_sys::hsl;
 use ipopt_sys::ma97::{self, Reached, Routines};
 use std::ffi::{CStr, CString};
 
@@ -59,8 +60,26 @@ impl Choice {
                 hsl: Some(installed(library(settings).as_deref())?),
                 ..Self::by_ipopt(LinearSolver::Ma97)
             },
-            other => Self::by_ipopt(other),
+            other => {
+                whole(&other, library(settings).as_deref())?;
+                Self::by_ipopt(other)
+            }
         })
+    }
+}
+
+/// Refuses a linear solver that the HSL library lacks: Ipopt would not survive that.
+fn whole(solver: &LinearSolver, library: Option<&CStr>) -> Result<(), IpoptError> {
+    let routine = match solver {
+        LinearSolver::Ma27 => hsl::Routine::Ma27,
+        LinearSolver::Ma57 => hsl::Routine::Ma57,
+        LinearSolver::Ma77 => hsl::Routine::Ma77,
+        LinearSolver::Ma86 => hsl::Routine::Ma86,
+        _ => return Ok(()),
+    };
+    match hsl::incomplete(routine, library) {
+        true => Err(missing(solver, library)),
+        false => Ok(()),
     }
 }
 
@@ -99,15 +118,19 @@ pub(super) fn library(settings: &Settings) -> Option<CString> {
 }
 
 fn installed(library: Option<&CStr>) -> Result<Routines, IpoptError> {
-    ma97::installed(library).ok_or_else(|| IpoptError::MissingLibrary {
+    ma97::installed(library).ok_or_else(|| missing(&LinearSolver::Ma97, library))
+}
+
+fn missing(solver: &LinearSolver, library: Option<&CStr>) -> IpoptError {
+    IpoptError::MissingLibrary {
         name: "linear_solver",
-        value: LinearSolver::Ma97.to_string(),
+        value: solver.to_string(),
         library: library.map_or_else(
             || "the HSL library".into(),
             |name| name.to_string_lossy().into_owned(),
         ),
         instead: "\"auto\" or \"mumps\"",
-    })
+    }
 }
 
 /// The last text value given to an option by name.

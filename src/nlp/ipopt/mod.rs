@@ -14,6 +14,7 @@ mod ma97_bridge;
 mod options;
 mod probe;
 mod problem;
+mod reach;
 mod serial;
 mod status;
 mod structure;
@@ -23,6 +24,7 @@ pub use choice::{linear_solver, why_not_multifrontal};
 pub use error::IpoptError;
 pub use ma97_bridge::{KktSystem, record};
 pub use probe::linear_solvers;
+pub use reach::{Reach, reach_of_option, reach_of_solver};
 pub use serial::serialised;
 
 use super::{

@@ -200,8 +200,13 @@ fn on_fine_mesh<Sp: Space>(
             halvings: 0,
         }));
     }
+    let mut coarser = None;
     loop {
-        let sampled = sample(system, motion, &parts, duration)?;
+        let sampled = match (sample(system, motion, &parts, duration), coarser.take()) {
+            // As fine as a mesh may be.
+            (Err(MeshError::TooMany { .. }), Some(done)) => return Ok(done),
+            (sampled, _) => sampled?,
+        };
         let errors = midpoint_errors(system, &sampled);
         let mut finer = Vec::with_capacity(parts.len());
         for (s, &part) in parts.iter().enumerate() {
@@ -221,6 +226,7 @@ fn on_fine_mesh<Sp: Space>(
         if finer.len() == parts.len() {
             return Ok((sampled, errors));
         }
+        coarser = Some((sampled, errors));
         parts = finer;
     }
 }

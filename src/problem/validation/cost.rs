@@ -1,9 +1,10 @@
 //! Weights of the cost.
 
-use super::checks::{Checked, count, error, indexed, weight};
+use super::checks::{Checked, count, error, indexed, number, weight};
 use crate::problem::builder::ProblemBuilder;
 use crate::problem::components::{ComponentKind, base_sizes};
 use crate::problem::cost::CostId;
+use crate::problem::magnitude;
 
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     every_weight(problem)?;
@@ -41,9 +42,7 @@ fn rate_matrix(problem: &ProblemBuilder) -> Checked {
         count(&format!("{key}[{i}]"), row.len(), size, "columns")?;
         for (j, value) in row.iter().enumerate() {
             let key = || format!("{key}[{i}][{j}]");
-            if !value.is_finite() {
-                return Err(error(key(), value, "a finite number"));
-            }
+            number(&key(), *value, magnitude::WEIGHT)?;
             if matrix[j].get(i).is_some_and(|mirror| mirror != value) {
                 return Err(error(key(), value, "a symmetric matrix"));
             }

@@ -4,6 +4,7 @@ use super::checks::{Checked, error, length, numbers};
 use crate::dynamics::Model;
 use crate::problem::components::base_sizes;
 use crate::problem::goal::EndEffectorGoal;
+use crate::problem::magnitude::POSITION;
 
 /// Checks the goal of `robot` that stands under `key`.
 pub(super) fn check(goal: &EndEffectorGoal, key: &str, robot: &Model) -> Checked {
@@ -17,11 +18,11 @@ pub(super) fn check(goal: &EndEffectorGoal, key: &str, robot: &Model) -> Checked
     let (angles, lengths) = base_sizes(robot);
     if let Some(position) = &goal.position {
         let key = format!("{key}.position");
-        numbers(&key, position, lengths, "base lengths")?;
+        numbers(&key, position, (lengths, "base lengths"), POSITION)?;
     }
     if let Some(orientation) = &goal.orientation {
         let key = format!("{key}.orientation");
-        numbers(&key, orientation, angles, "base angles")?;
+        numbers(&key, orientation, (angles, "base angles"), POSITION)?;
     }
     length(format!("{key}.position_tolerance"), goal.position_tolerance)?;
     if !(0.0..1.5).contains(&goal.orientation_tolerance) {

@@ -6,10 +6,12 @@ mod ends;
 mod goal;
 mod keep_out;
 mod limits;
+mod name;
 mod task;
 mod way_points;
 
 pub(crate) use keep_out::pair as check_pair;
+pub(crate) use name::{EXPECTED as EXPECTED_NAME, is_name};
 
 use super::builder::ProblemBuilder;
 use super::error::ProblemError;
@@ -20,6 +22,7 @@ use checks::error;
 ///
 /// Lengths come first, so that later checks may index.
 pub(super) fn check(problem: &ProblemBuilder) -> Result<(), ProblemError> {
+    name::check(&problem.name)?;
     task::check(problem)?;
     limits::check(problem)?;
     keep_out::check(problem)?;

@@ -7,6 +7,7 @@ use crate::ocp::Interval;
 use crate::problem::builder::ProblemBuilder;
 use crate::problem::components::base_sizes;
 use crate::problem::limit_id::LimitId;
+use crate::problem::magnitude;
 
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     duration(&problem.task.duration)?;
@@ -26,14 +27,24 @@ fn duration(duration: &Interval) -> Checked {
         };
         return Err(error(KEY, found, "a finite duration above zero"));
     }
+    let [least, most] = magnitude::DURATION;
+    if duration.lower < least || duration.upper > most {
+        let found = format!("{:e} to {:e} s", duration.lower, duration.upper);
+        let expected = format!("a duration from {least:e} to {most:e} s");
+        return Err(error(KEY, found, expected));
+    }
     interval(KEY, duration)
 }
 
 fn joints(problem: &ProblemBuilder) -> Checked {
     let (task, n) = (&problem.task, problem.robot.joint_count());
-    numbers("task.initial.joints", &task.initial_joints, n, "joints")?;
-    numbers("task.initial.rates", &task.initial_rates, n, "joints")?;
-    numbers("task.final.joints", &task.final_joints, n, "joints")?;
+    for (key, values) in [
+        ("task.initial.joints", &task.initial_joints),
+        ("task.initial.rates", &task.initial_rates),
+        ("task.final.joints", &task.final_joints),
+    ] {
+        numbers(key, values, (n, "joints"), magnitude::POSITION)?;
+    }
     count("task.final.free", task.free_joints.len(), n, "joints")
 }
 
@@ -42,7 +53,7 @@ fn base(problem: &ProblemBuilder) -> Checked {
     const KEY: &str = "task.initial.base_attitude";
     let (angles, _) = base_sizes(&problem.robot);
     let turned = &problem.task.initial_base_attitude;
-    numbers(KEY, turned, angles, "base angles")?;
+    numbers(KEY, turned, (angles, "base angles"), magnitude::POSITION)?;
     let singular = |pitch: f64| pitch.cos().abs() < SINGULAR;
     match turned[..] {
         [_, pitch, _] if problem.attitude.is_angles() && singular(pitch) => Err(error(
@@ -62,9 +73,10 @@ fn momentum(problem: &ProblemBuilder) -> Checked {
     let momentum = &problem.task.initial_momentum;
     let (angles, lengths) = base_sizes(&problem.robot);
     let key = "task.initial.linear_momentum";
-    numbers(key, &momentum.linear, lengths, "base lengths")?;
+    let most = magnitude::MOMENTUM;
+    numbers(key, &momentum.linear, (lengths, "base lengths"), most)?;
     let key = "task.initial.angular_momentum";
-    numbers(key, &momentum.angular, angles, "base angles")
+    numbers(key, &momentum.angular, (angles, "base angles"), most)
 }
 
 fn goal(problem: &ProblemBuilder) -> Checked {

@@ -1,10 +1,11 @@
 //! Way-points: in the order of time, within the limits, with something to hold there.
 
-use super::checks::{Checked, count, error, indexed, numbers};
+use super::checks::{Checked, count, error, indexed, number, numbers};
 use super::goal;
 use crate::ocp::Interval;
 use crate::problem::builder::ProblemBuilder;
 use crate::problem::limit_id::LimitId;
+use crate::problem::magnitude::POSITION;
 use crate::problem::way_point::{Moment, WayPoint};
 
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
@@ -78,7 +79,7 @@ fn joints(problem: &ProblemBuilder, key: &str, point: &WayPoint) -> Checked {
     )?;
     let n = problem.robot.joint_count();
     match &point.guess {
-        Some(guess) => numbers(&key("guess"), guess, n, "joints"),
+        Some(guess) => numbers(&key("guess"), guess, (n, "joints"), POSITION),
         None => Ok(()),
     }
 }
@@ -94,9 +95,7 @@ fn within(
     count(key, values.len(), n, "joints")?;
     for (j, value) in values.iter().enumerate() {
         let Some(value) = *value else { continue };
-        if !value.is_finite() {
-            return Err(error(indexed(key, j, n), value, "a finite number"));
-        }
+        number(&indexed(key, j, n), value, POSITION)?;
         if bounds[j].violation(value) > 0.0 {
             let found = format!("{value} for joint '{}'", problem.robot.joints()[j].name);
             let Interval { lower, upper } = bounds[j];

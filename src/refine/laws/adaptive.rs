@@ -123,10 +123,12 @@ impl RefinementLaw for Law<'_> {
         if decisions.iter().all(|d| *d == Decision::Keep) {
             return None;
         }
-        Some(Refined {
-            mesh: self.changed(old, &changes),
-            decisions,
-        })
+        let mesh = match self.changed(old, &changes) {
+            // A mesh of more points than there may be: nothing more can be done.
+            Err(MeshError::TooMany { .. }) => return None,
+            mesh => mesh.expect("cuts rise within their segment"),
+        };
+        Some(Refined { mesh, decisions })
     }
 }
 
@@ -159,7 +161,7 @@ impl Law<'_> {
     }
 
     /// `old` with the change of each segment.
-    fn changed(&self, old: &Mesh, changes: &[Change]) -> Mesh {
+    fn changed(&self, old: &Mesh, changes: &[Change]) -> Result<Mesh, MeshError> {
         let mut breakpoints = vec![0.0];
         let mut points = Vec::new();
         for (s, change) in changes.iter().enumerate() {
@@ -176,7 +178,7 @@ impl Law<'_> {
             }
             breakpoints.push(old.breakpoints()[s + 1]);
         }
-        Mesh::new(breakpoints, &points).expect("cuts rise within their segment")
+        Mesh::new(breakpoints, &points)
     }
 }
 

@@ -9,6 +9,7 @@ use super::format::time;
 use crate::collocation::Mesh;
 use crate::ocp::Interval;
 use crate::planner::{Method, Status};
+use crate::printable::printable;
 use crate::problem::Problem;
 use crate::solution::{Build, Solution};
 use crate::system::{Trajectory, resampled, straight_motion};
@@ -40,7 +41,7 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
     let compared = straight.map(|motion| ("straight joint path", motion));
     let scene = Scene::new(problem, &planned.chain(compared).collect::<Vec<_>>());
     let panels = charts::panels(solution, problem, plan, straight);
-    html! {
+    let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
@@ -83,7 +84,9 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
             }
         }
     }
-    .into_string()
+    .into_string();
+    // Names and texts come from files.
+    printable(&page).into_owned()
 }
 
 /// The motion along the straight joint path to where `plan` ends, in its time; `None` where the

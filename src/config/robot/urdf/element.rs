@@ -2,6 +2,7 @@
 
 use crate::config::document::quoted;
 use crate::config::{ConfigError, Place};
+use crate::printable::one_line;
 use roxmltree::Node;
 use std::sync::Arc;
 
@@ -66,7 +67,7 @@ impl<'a, 'input> Element<'a, 'input> {
     pub(super) fn top(source: &'a Source<'a>, node: Node<'a, 'input>) -> Self {
         let tag = node.tag_name().name();
         let path = match node.attribute("name") {
-            Some(name) if tag != "robot" => format!("{tag} '{name}'"),
+            Some(name) if tag != "robot" => format!("{tag} '{}'", one_line(name, 80)),
             _ => format!("<{tag}>"),
         };
         Self { source, node, path }

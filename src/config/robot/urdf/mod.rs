@@ -1,5 +1,6 @@
 //! The robot file in URDF; docs/robot-file.md says what is read and what is refused.
 
+mod bounds;
 mod collision;
 mod element;
 mod joint;
@@ -11,7 +12,7 @@ use super::description::{Description, Entry};
 use crate::config::ConfigError;
 use crate::config::faults::Faults;
 use crate::config::figures::Unusable;
-use crate::dynamics::{self, Body, Inertia, Placement};
+use crate::dynamics::{self, Body, Inertia, MOST_LENGTH, Placement};
 use element::{Element, Source};
 use joint::{Joint, Motion};
 use link::Link;
@@ -30,6 +31,7 @@ use xml::RUN_XACRO;
 pub(super) fn read(file: &Arc<str>, text: &str, name: &str) -> Result<Description, ConfigError> {
     let text = xml::strict(text);
     let source = Source::new(file, &text);
+    bounds::check(&source, &text)?;
     let document = xml::parse(&source, &text)?;
     let root = document.root_element();
     let robot = Element::top(&source, root);
@@ -102,8 +104,15 @@ fn origin(element: &Element<'_, '_>) -> Result<Placement, ConfigError> {
             .get(name)
             .map_or(Ok([0.0; 3]), |attribute| attribute.triple(expected))
     };
+    let expected = "3 finite lengths, m";
+    let xyz = triple("xyz", expected)?;
+    if let Some(given) = origin.get("xyz")
+        && xyz.iter().any(|length| length.abs() > MOST_LENGTH)
+    {
+        return Err(given.unexpected(&format!("{expected}, of at most {MOST_LENGTH:e} m")));
+    }
     Ok(Placement::from_xyz_rpy(
-        triple("xyz", "3 finite lengths, m")?,
+        xyz,
         triple("rpy", "3 finite angles, rad")?,
     ))
 }

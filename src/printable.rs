@@ -1,0 +1,65 @@
+//! Text from files, made harmless where it is shown: control characters steer a terminal, and no XML
+//! may hold them.
+
+use std::borrow::Cow;
+
+/// `text` with control characters, but for line breaks and tabs, as `\u001b`; so are characters that
+/// change the direction of writing.
+///
+/// JSON and what programs write into it stay what they are: there these characters stand in strings
+/// alone, and mean the same written so.
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
+    if !text.chars().any(steers) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len());
+    let mut characters = text.chars().peekable();
+    while let Some(c) = characters.next() {
+        if c == '\r' && characters.peek() == Some(&'\n') {
+            continue;
+        }
+        match steers(c) {
+            true => shown.push_str(&format!("\\u{:04x}", u32::from(c))),
+            false => shown.push(c),
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// `text` on one line of at most `most` characters.
+pub(crate) fn one_line(text: &str, most: usize) -> String {
+    let line = printable(text).replace('\n', "\\n").replace('\t', " ");
+    match line.char_indices().nth(most) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line,
+    }
+}
+
+fn steers(c: char) -> bool {
+    let turns =
+        matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    (c.is_control() && c != '\n' && c != '\t') || turns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_steers_a_terminal_is_shown() {
+        assert_eq!(printable("a\tb\nc é"), "a\tb\nc é");
+        assert_eq!(printable("\u{1b}[31mred"), "\\u001b[31mred");
+        assert_eq!(printable("\u{9b}2J\u{7f}"), "\\u009b2J\\u007f");
+        assert_eq!(printable("a\r\nb\r"), "a\nb\\u000d");
+        assert_eq!(printable("\u{202e}x"), "\\u202ex");
+        let json = "[\"\u{9b}\"]";
+        let shown: Vec<String> = serde_json::from_str(&printable(json)).unwrap();
+        assert_eq!(shown, ["\u{9b}"]);
+    }
+
+    #[test]
+    fn a_line_is_one_and_has_an_end() {
+        assert_eq!(one_line("a\nb", 10), "a\\nb");
+        assert_eq!(one_line("äöü", 2), "äö…");
+    }
+}
