@@ -11,7 +11,7 @@ use super::way_point;
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::problem::{ComponentKind, Cost, CostId, LimitId, Limits, Momentum, Task};
-use crate::refine::{self, Method};
+use crate::refine::{self, ErrorMeasure, Method};
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish.
 const MOST: usize = 100_000;
@@ -232,10 +232,14 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         }
     }
     if let Some(item) = section.get("error") {
-        let expected = "\"paper\", the error estimate (28)";
-        if item.text(expected)? != "paper" {
-            return Err(item.unexpected(expected));
-        }
+        let expected = ErrorMeasure::ALL
+            .map(|measure| quoted(measure.name()))
+            .join(" or ");
+        let name = item.text(&expected)?;
+        let found = ErrorMeasure::ALL
+            .into_iter()
+            .find(|measure| measure.name() == name);
+        mesh.error = found.ok_or_else(|| item.error(quoted(name), &expected))?;
     }
     Ok(())
 }

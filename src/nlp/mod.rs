@@ -12,12 +12,14 @@ pub mod kkt;
 mod iterate;
 mod linear_solver;
 mod problem;
+mod scaled;
 mod settings;
 mod solution;
 
 pub use iterate::Iterate;
 pub use linear_solver::LinearSolver;
 pub use problem::{Nlp, Size, Undefined};
+pub use scaled::{Scaled, Units};
 pub use settings::{OptionValue, Settings};
 pub use solution::{Control, Evaluations, Progress, Solution, Statistics, Status};
 
