@@ -1,7 +1,7 @@
 //! A closed interval that a quantity must stay in.
 
 /// Bounds whose ratio is larger say little of what is between them.
-const WIDE: f64 = 100.0;
+const WIDE: f64 = 1e4;
 
 /// Lower and upper bound; infinite where there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]

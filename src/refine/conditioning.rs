@@ -18,6 +18,8 @@ pub(super) struct Conditioning<'a, O> {
     /// The formulation without bounds that lie far outside.
     near: Formulation,
     scales: Scales,
+    /// Where the trajectory goes that the first solve starts from.
+    reach: Reach,
     patterns: Cow<'a, Patterns>,
 }
 
@@ -31,6 +33,7 @@ impl<'a, O: Ocp> Conditioning<'a, O> {
         Self {
             ocp,
             scales: Scales::new(&near, &reach),
+            reach,
             all,
             near,
             patterns: wider.map_or(Cow::Borrowed(patterns), Cow::Owned),
@@ -58,15 +61,18 @@ impl<'a, O: Ocp> Conditioning<'a, O> {
             return false;
         }
         let reach = Reach::of(self.ocp, &self.all, solution);
-        let mut again = reach.exceeds_dropped(&self.all, &self.near);
-        if again {
-            self.near = self.all.clone();
-        }
+        let mut again = false;
         if let Some(wider) = self.patterns.widened(self.ocp, &self.all, solution) {
             self.patterns = Cow::Owned(wider);
             again = true;
         }
-        // What did not converge tells no size.
+        if reach.exceeds_dropped(&self.all, &self.near) {
+            self.near = self.all.clone();
+            // A solution without bounds that act tells no size.
+            self.scales = Scales::new(&self.all, &self.reach);
+            return true;
+        }
+        // Nor does what did not converge.
         if let Some(scales) = self.scales.after(&reach).filter(|_| status.is_solved()) {
             // Solved in units too small, a solution is only more accurate than need be.
             again |= scales.any_below(&self.scales);
