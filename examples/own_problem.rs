@@ -5,10 +5,7 @@
 //! ```
 
 use ffsm_ipopt::autodiff::Scalar;
-use ffsm_ipopt::nlp::{self, Control};
-use ffsm_ipopt::ocp::{Ends, Formulation, Interval, Ocp, Point, Quantity};
-use ffsm_ipopt::refine::{Refinement, Settings};
-use ffsm_ipopt::transcription::Patterns;
+use ffsm_ipopt::ocp::{self, Ends, Formulation, Interval, Ocp, Point, Quantity};
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 
@@ -19,17 +16,13 @@ impl Ocp for Slide {
     type Scratch<S: Scalar> = ();
 
     fn formulation(&self) -> Formulation {
+        let [rest, there] = [0.0, 2.0].map(Interval::fixed);
         let state = |name: &str| Quantity::new(name, Interval::FREE);
-        Formulation {
-            states: vec![state("along"), state("down"), state("speed")],
-            controls: vec![Quantity::new("slope", Interval::new(0.0, FRAC_PI_2))],
-            path: vec![],
-            boundary: vec![],
-            way_points: vec![],
-            initial: vec![Interval::fixed(0.0); 3],
-            terminal: vec![Interval::fixed(2.0), Interval::fixed(2.0), Interval::FREE],
-            duration: Interval::new(0.1, 10.0),
-        }
+        Formulation::over(Interval::new(0.1, 10.0))
+            .state(state("along"), rest, there)
+            .state(state("down"), rest, there)
+            .state(state("speed"), rest, Interval::FREE)
+            .control(Quantity::new("slope", Interval::new(0.0, FRAC_PI_2)))
     }
 
     fn scratch<S: Scalar>(&self) {}
@@ -55,20 +48,11 @@ impl Ocp for Slide {
 
 /// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let settings = Settings {
-        segments: 4,
-        points: 6,
-        tolerance: 1e-7,
-        ..Settings::default()
-    };
-    let refinement = Refinement {
-        ocp: &Slide,
-        patterns: &Patterns::detect(&Slide),
-        settings: &settings,
-        solver: &nlp::Settings::default(),
-    };
-    let start = refinement.straight_start()?;
-    let outcome = refinement.run(&start, &mut |_| Control::Continue)?;
+    let mut settings = ocp::Settings::default();
+    settings.mesh.segments = 4;
+    settings.mesh.points = 6;
+    settings.mesh.tolerance = 1e-7;
+    let outcome = ocp::solve(&Slide, &settings)?;
     println!(
         "t_f = {:.9} s (known: 0.824338669), {} points, largest error {:.1e}",
         outcome.objective,

@@ -1,5 +1,7 @@
 //! Every example runs and its own assertions hold.
 
+#[path = "../examples/free_flying_robot.rs"]
+mod free_flying_robot;
 #[path = "../examples/own_problem.rs"]
 mod own_problem;
 #[path = "../examples/plan_from_file.rs"]
@@ -8,8 +10,20 @@ mod plan_from_file;
 mod plan_in_code;
 #[path = "../examples/replan_many.rs"]
 mod replan_many;
+#[path = "../examples/shuttle_reentry.rs"]
+mod shuttle_reentry;
 #[path = "../examples/time_in_process.rs"]
 mod time_in_process;
+
+#[test]
+fn free_flying_robot_runs() {
+    free_flying_robot::main().unwrap();
+}
+
+#[test]
+fn shuttle_reentry_runs() {
+    shuttle_reentry::main().unwrap();
+}
 
 #[test]
 fn own_problem_runs() {

@@ -2,7 +2,7 @@
 
 use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::nlp::{self, Control};
-use ffsm_ipopt::ocp::{Formulation, Interval, Ocp, Point, Quantity};
+use ffsm_ipopt::ocp::{self, Formulation, Interval, Ocp, Point, Quantity, WayPoint};
 use ffsm_ipopt::refine::{Method, Outcome, Refinement, Settings, Verdict};
 use ffsm_ipopt::transcription::Patterns;
 
@@ -155,4 +155,152 @@ fn refinement_goes_on_where_nothing_is_known() {
     let last = outcome.records.last().unwrap();
     assert_eq!(outcome.records.len(), 2);
     assert!(matches!(last.verdict, Verdict::NotSolved(_)), "{last:?}");
+}
+
+/// ẋ = v, v̇ = u, which forgets what it is told to.
+struct Forgetful {
+    formulation: Formulation,
+    forgets: &'static str,
+}
+
+impl Forgetful {
+    fn new(forgets: &'static str) -> Self {
+        let [start, end] = [0.0, 1.0].map(Interval::fixed);
+        let formulation = Formulation::over(Interval::fixed(1.0))
+            .state(Quantity::new("place", Interval::FREE), start, end)
+            .state(Quantity::new("speed", Interval::FREE), start, start)
+            .control(Quantity::new("force", Interval::FREE))
+            .path_row(Quantity::new("power", Interval::FREE));
+        Self {
+            formulation,
+            forgets,
+        }
+    }
+}
+
+impl Ocp for Forgetful {
+    type Scratch<S: Scalar> = ();
+
+    fn formulation(&self) -> Formulation {
+        self.formulation.clone()
+    }
+
+    fn scratch<S: Scalar>(&self) {}
+
+    fn continuous<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        _: &mut (),
+        rates: &mut [S],
+        path: &mut [S],
+    ) -> S {
+        let u = point.u[0];
+        rates[0] = point.x[1];
+        match self.forgets {
+            "rate" => {}
+            "sum" => rates[1] += u,
+            _ => rates[1] = u,
+        }
+        match self.forgets {
+            "row" => {}
+            "root" => path[0] = (point.t - 0.5).sqrt(),
+            _ => path[0] = u * point.x[1],
+        }
+        u.square()
+    }
+}
+
+fn refused(problem: &Forgetful) -> String {
+    let error = ocp::solve(problem, &ocp::Settings::default()).unwrap_err();
+    error.to_string()
+}
+
+#[test]
+fn what_is_never_written_is_named() {
+    for (forgets, expected) in [
+        ("rate", "rates[1] (speed) was never written"),
+        ("sum", "rates[1] (speed) was never written"),
+        ("row", "path[0] (power) was never written"),
+        ("root", "path[0] (power) of Ocp::continuous is NaN at 0 s"),
+    ] {
+        let message = refused(&Forgetful::new(forgets));
+        assert!(message.starts_with(expected), "{message}");
+    }
+    let outcome = ocp::solve(&Forgetful::new(""), &ocp::Settings::default()).unwrap();
+    assert!(outcome.converged && (outcome.objective - 12.0).abs() < 1e-8);
+}
+
+#[test]
+fn formulations_that_cannot_be_are_refused() {
+    let change = |change: fn(&mut Formulation), expected: &str| {
+        let mut problem = Forgetful::new("");
+        change(&mut problem.formulation);
+        let message = refused(&problem);
+        assert!(message.contains(expected), "{message}");
+    };
+    change(
+        |f| f.duration = Interval::fixed(-1.0),
+        "duration is -1 to -1 s",
+    );
+    change(|f| f.duration = Interval::FREE, "duration is -inf to inf s");
+    change(
+        |f| f.duration = Interval::fixed(f64::NAN),
+        "duration is NaN",
+    );
+    change(|f| f.states.clear(), "states is empty");
+    change(
+        |f| f.initial.truncate(1),
+        "initial has 1 intervals: expected 2",
+    );
+    change(
+        |f| f.terminal.push(Interval::FREE),
+        "terminal has 3 intervals",
+    );
+    change(
+        |f| f.controls[0].bounds = Interval::new(2.0, 1.0),
+        "force allows no value, it is 2 to 1",
+    );
+    change(
+        |f| f.states[0].bounds = Interval::new(0.0, 0.5),
+        "place, at the end allows no value, it is 1 to 0.5",
+    );
+    change(
+        |f| f.path[0] = f.path[0].clone().scaled(0.0),
+        "the scale of power is 0",
+    );
+    let point = |fraction: f64, states: usize| WayPoint {
+        fraction,
+        states: vec![Interval::FREE; states],
+        rows: vec![],
+    };
+    for (points, expected) in [
+        (vec![point(1.0, 2)], "way-point 0 is at 1"),
+        (vec![point(0.5, 2), point(0.5, 2)], "way-point 1 is at 0.5"),
+        (vec![point(0.5, 1)], "states of way-point 0 has 1 intervals"),
+    ] {
+        let mut problem = Forgetful::new("");
+        problem.formulation.way_points = points;
+        let message = refused(&problem);
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn a_guess_is_taken_where_it_is_good_and_refused_where_it_is_no_time() {
+    let settings = ocp::Settings::default();
+    let problem = Forgetful::new("");
+    let outcome = ocp::solve_from(&problem, &settings, 1.0, |fraction, x, u| {
+        x[0] = fraction * fraction * (3.0 - 2.0 * fraction);
+        x[1] = 6.0 * fraction * (1.0 - fraction);
+        u[0] = 6.0 - 12.0 * fraction;
+    });
+    assert!((outcome.unwrap().objective - 12.0).abs() < 1e-8);
+    for duration in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = ocp::solve_from(&problem, &settings, duration, |_, _, _| {});
+        let message = refused.unwrap_err().to_string();
+        assert!(
+            message.contains("the duration of the start is"),
+            "{message}"
+        );
+    }
 }

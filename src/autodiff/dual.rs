@@ -253,6 +253,14 @@ impl<const N: usize, const FUSED: bool> Mul<f64> for Dual<N, FUSED> {
     }
 }
 
+impl<const N: usize, const FUSED: bool> Div<f64> for Dual<N, FUSED> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, rhs: f64) -> Self {
+        self.scaled(self.value / rhs, 1.0 / rhs)
+    }
+}
+
 impl<const N: usize, const FUSED: bool> Zero for Dual<N, FUSED> {
     #[inline(always)]
     fn zero() -> Self {

@@ -207,6 +207,14 @@ impl<const R: usize, const C: usize> Mul<f64> for HyperDual<R, C> {
     }
 }
 
+impl<const R: usize, const C: usize> Div<f64> for HyperDual<R, C> {
+    type Output = Self;
+    #[inline]
+    fn div(self, rhs: f64) -> Self {
+        self.map(|a| a / rhs)
+    }
+}
+
 impl<const R: usize, const C: usize> Zero for HyperDual<R, C> {
     #[inline]
     fn zero() -> Self {

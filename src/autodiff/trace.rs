@@ -83,6 +83,12 @@ impl Scalar for Trace {
         self.linear(other, Scalar::min(self.value, other.value))
     }
 
+    /// Bends in both, wherever the point is.
+    fn atan2(self, x: Self) -> Self {
+        let angle = self.value.atan2(x.value);
+        self.linear(x, angle).chain(angle, 0.0, 0.0)
+    }
+
     fn abs(self) -> Self {
         self.straight(self.value.abs())
     }
@@ -191,6 +197,13 @@ impl Mul<f64> for Trace {
         } else {
             self.straight(self.value * rhs)
         }
+    }
+}
+
+impl Div<f64> for Trace {
+    type Output = Self;
+    fn div(self, rhs: f64) -> Self {
+        self.straight(self.value / rhs)
     }
 }
 

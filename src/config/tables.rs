@@ -13,7 +13,7 @@ use crate::nlp::ipopt::{reach_of_option, reach_of_solver};
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::problem::{ComponentKind, Cost, CostId, LimitId, Limits, Momentum, Task};
-use crate::refine::{self, Method};
+use crate::refine::{self, ErrorMeasure, Method};
 use std::time::Duration;
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish. How many
@@ -246,10 +246,14 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         }
     }
     if let Some(item) = section.get("error") {
-        let expected = "\"paper\", the error estimate (28)";
-        if item.text(expected)? != "paper" {
-            return Err(item.unexpected(expected));
-        }
+        let expected = ErrorMeasure::ALL
+            .map(|measure| quoted(measure.name()))
+            .join(" or ");
+        let name = item.text(&expected)?;
+        let found = ErrorMeasure::ALL
+            .into_iter()
+            .find(|measure| measure.name() == name);
+        mesh.error = found.ok_or_else(|| item.error(quoted(name), &expected))?;
     }
     Ok(())
 }

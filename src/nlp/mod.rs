@@ -13,6 +13,7 @@ mod deadline;
 mod iterate;
 mod linear_solver;
 mod problem;
+mod scaled;
 mod settings;
 mod solution;
 
@@ -20,6 +21,7 @@ pub use deadline::Deadline;
 pub use iterate::Iterate;
 pub use linear_solver::LinearSolver;
 pub use problem::{Nlp, Size, Undefined};
+pub use scaled::{Scaled, Units};
 pub use settings::{OptionValue, Settings};
 pub use solution::{Control, Evaluations, Progress, Solution, Statistics, Status};
 

@@ -11,6 +11,9 @@ pub struct Quantity {
     pub bounds: Interval,
     /// What counts as one in it, in its unit; `None` for the size of its bounds.
     pub size: Option<f64>,
+    /// What the solver and the error estimate count as one in it, in its unit, above zero; `None`
+    /// where bounds, ends and the first trajectory are to tell.
+    pub scale: Option<f64>,
 }
 
 impl Quantity {
@@ -20,6 +23,7 @@ impl Quantity {
             name: name.into(),
             bounds,
             size: None,
+            scale: None,
         }
     }
 
@@ -27,6 +31,14 @@ impl Quantity {
     pub fn sized(self, size: f64) -> Self {
         Self {
             size: Some(size),
+            ..self
+        }
+    }
+
+    /// The same with a scale of its own.
+    pub fn scaled(self, scale: f64) -> Self {
+        Self {
+            scale: Some(scale),
             ..self
         }
     }
@@ -66,7 +78,63 @@ pub struct WayPoint {
     pub rows: Vec<Quantity>,
 }
 
+impl Default for Formulation {
+    /// Nothing yet, for one second.
+    fn default() -> Self {
+        Self {
+            states: Vec::new(),
+            controls: Vec::new(),
+            path: Vec::new(),
+            boundary: Vec::new(),
+            initial: Vec::new(),
+            terminal: Vec::new(),
+            duration: Interval::fixed(1.0),
+            way_points: Vec::new(),
+        }
+    }
+}
+
 impl Formulation {
+    /// Nothing yet, for `duration`.
+    pub fn over(duration: Interval) -> Self {
+        Self {
+            duration,
+            ..Self::default()
+        }
+    }
+
+    /// With a state more: its bounds along the path, at t₀ and at t_f.
+    pub fn state(mut self, state: Quantity, initial: Interval, terminal: Interval) -> Self {
+        self.states.push(state);
+        self.initial.push(initial);
+        self.terminal.push(terminal);
+        self
+    }
+
+    /// With a control more.
+    pub fn control(mut self, control: Quantity) -> Self {
+        self.controls.push(control);
+        self
+    }
+
+    /// With a path row more.
+    pub fn path_row(mut self, row: Quantity) -> Self {
+        self.path.push(row);
+        self
+    }
+
+    /// With a boundary row more.
+    pub fn boundary_row(mut self, row: Quantity) -> Self {
+        self.boundary.push(row);
+        self
+    }
+
+    /// With a way-point more, after those there are.
+    pub fn way_point(mut self, point: WayPoint) -> Self {
+        self.way_points.push(point);
+        self
+    }
+
     /// Number of states and of controls.
     pub fn widths(&self) -> (usize, usize) {
         (self.states.len(), self.controls.len())

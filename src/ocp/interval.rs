@@ -1,5 +1,8 @@
 //! A closed interval that a quantity must stay in.
 
+/// Bounds whose ratio is larger say little of what is between them.
+const WIDE: f64 = 1e4;
+
 /// Lower and upper bound; infinite where there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -75,6 +78,20 @@ impl Interval {
             (true, false) => self.lower.max(0.0),
             (false, true) => self.upper.min(0.0),
             (false, false) => 0.0,
+        }
+    }
+
+    /// A likely value of a quantity above zero, such as a duration: the middle, unless the bounds are
+    /// orders of magnitude apart; then what is as many times the lower one as the upper one is of it.
+    pub fn typical(&self) -> f64 {
+        let (lower, upper) = (self.lower, self.upper);
+        if self.is_fixed() || upper <= WIDE * lower || (lower <= 0.0 && upper <= WIDE) {
+            return self.center();
+        }
+        let lower = if lower > 0.0 { lower } else { upper.min(1.0) };
+        match upper.is_finite() {
+            true => (lower * upper).sqrt(),
+            false => 2.0 * lower,
         }
     }
 }

@@ -8,6 +8,7 @@ mod formulation;
 mod interval;
 mod point;
 mod problem;
+mod validation;
 
 pub use derivatives::PointDerivatives;
 pub use elastic::{Elastic, LimitGroup, Limited};
@@ -15,3 +16,7 @@ pub use formulation::{Formulation, Quantity, WayPoint};
 pub use interval::Interval;
 pub use point::{Ends, InteriorPoint, Point};
 pub use problem::Ocp;
+pub use validation::FormulationError;
+
+// The entry point has its name here, where the problem is written; it stands above this folder.
+pub use crate::refine::{SolveError, SolveSettings as Settings, solve, solve_from};

@@ -3,6 +3,7 @@
 use crate::collocation::MeshError;
 use crate::nlp::ipopt;
 use crate::problem::ProblemError;
+use crate::refine::SolveError;
 
 /// Why there is no plan at all.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -17,6 +18,9 @@ pub enum PlanError {
     /// The solver refused it.
     #[error(transparent)]
     Ipopt(#[from] ipopt::IpoptError),
+    /// The optimal control problem cannot be solved.
+    #[error(transparent)]
+    Solve(SolveError),
     /// A warm start that belongs to another robot.
     #[error(
         "warm start: the trajectory has {found} states and {controls} controls; the problem has {expected} and {joints}"
@@ -31,4 +35,14 @@ pub enum PlanError {
         /// Joints of the problem.
         joints: usize,
     },
+}
+
+impl From<SolveError> for PlanError {
+    fn from(error: SolveError) -> Self {
+        match error {
+            SolveError::Mesh(error) => Self::Mesh(error),
+            SolveError::Ipopt(error) => Self::Ipopt(error),
+            error => Self::Solve(error),
+        }
+    }
 }

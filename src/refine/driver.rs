@@ -1,14 +1,17 @@
 //! Solves on one mesh after another until the error is within the tolerance.
 
+use super::conditioning::Conditioning;
 use super::transfer::{Duals, resample, saved_layout};
 use super::violation::worst_of_each;
 use super::{
-    Assessment, Bounded, Errors, Record, Refined, RefinementLaw, Settings, Verdict, Violation,
-    midpoint_errors, quadrature_error, violations,
+    Assessment, Bounded, Errors, Record, Refined, RefinementLaw, Settings, SolveError, Verdict,
+    Violation, midpoint_errors, quadrature_error, start_check, violations,
 };
 use crate::largest::largest;
-use crate::nlp::{self, Control, Deadline, Iterate, Progress, Statistics, Status, ipopt};
-use crate::ocp::Ocp;
+use crate::nlp::{
+    self, Control, Deadline, Iterate, Progress, Scaled, Statistics, Status, Units, ipopt,
+};
+use crate::ocp::{Interval, Ocp};
 use crate::transcription::{Discretization, Layout, Patterns, Transcription};
 use std::fmt;
 use std::time::Instant;
@@ -36,6 +39,9 @@ const WILD: f64 = 1e5;
 
 /// Part of its size by which a bound may be exceeded between the nodes of a mesh that counts.
 const FAR: f64 = 0.05;
+
+/// Most solves on one mesh, should its solutions not be as was supposed.
+const ATTEMPTS: u32 = 4;
 
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
@@ -123,6 +129,18 @@ impl Outcome {
     }
 }
 
+/// What the solve on one mesh starts from.
+#[derive(Clone, Copy)]
+struct From<'a> {
+    trajectory: &'a Discretization,
+    /// The solution on the mesh before.
+    previous: Option<&'a Previous>,
+    /// Where the loop began.
+    start: &'a Start,
+    /// When all solves have to have ended.
+    deadline: Deadline,
+}
+
 /// The solution of one programme.
 struct Solved {
     trajectory: Discretization,
@@ -180,12 +198,12 @@ impl<O: Ocp> Refinement<'_, O> {
         let fractions = formulation.way_point_fractions();
         let mesh = self.settings.first_mesh()?.through(&fractions)?;
         let (states, controls) = formulation.widths();
-        let duration = formulation.duration.center();
+        let duration = formulation.duration.typical();
         let trajectory = Discretization::sample(mesh, duration, states, controls, |part, x, u| {
             for (i, value) in x.iter_mut().enumerate() {
                 let bounds = &formulation.states[i].bounds;
-                let start = formulation.initial[i].intersect(bounds).center();
-                let end = formulation.terminal[i].intersect(bounds).center();
+                let ends = [&formulation.initial[i], &formulation.terminal[i]];
+                let [start, end] = line(ends.map(|end| end.intersect(bounds)), ends);
                 *value = start + part * (end - start);
             }
             for (value, control) in u.iter_mut().zip(&formulation.controls) {
@@ -210,20 +228,27 @@ impl<O: Ocp> Refinement<'_, O> {
     /// the same.
     ///
     /// # Errors
-    /// What the solver refuses before it begins.
-    ///
-    /// # Panics
-    /// Where the fractions of the way-points do not rise from above 0 to below 1.
+    /// [`SolveError`]: a formulation or a start that cannot be, an output that is never written, and
+    /// what the solver refuses before it begins.
     pub fn run(
         &self,
         start: &Start,
         monitor: &mut dyn FnMut(Event<'_>) -> Control,
-    ) -> Result<Outcome, ipopt::IpoptError> {
+    ) -> Result<Outcome, SolveError> {
+        let formulation = self.ocp.formulation();
+        formulation.validate()?;
+        let found = (start.trajectory.states, start.trajectory.controls);
+        if found != formulation.widths() {
+            let expected = formulation.widths();
+            return Err(SolveError::Start { found, expected });
+        }
         let law = self.settings.law();
         let deadline = Deadline::after(self.solver.time_limit);
         let mut records: Vec<Record> = Vec::new();
         let mut statistics = Statistics::default();
         let mut trajectory = self.at_way_points(&start.trajectory);
+        start_check::written(self.ocp, &formulation, &trajectory)?;
+        let mut conditioning = Conditioning::new(self.ocp, self.patterns, &trajectory);
         let mut previous: Option<Previous> = None;
         let mut best: Option<Outcome> = None;
         loop {
@@ -235,19 +260,20 @@ impl<O: Ocp> Refinement<'_, O> {
                 points: trajectory.mesh.points(),
             };
             let stopped = monitor(event) == Control::Stop;
-            let mut program = Transcription::new(self.ocp, self.patterns, trajectory.mesh.clone());
-            let (mut settings, iterate) =
-                self.warm_start(&program, &trajectory, previous.as_ref(), start);
-            settings.time_limit = deadline.remaining();
-            let solved =
-                self.solve(&mut program, settings, iterate, &mut statistics, &mut |p| {
-                    if stopped {
-                        Control::Stop
-                    } else {
-                        monitor(Event::Solver(p))
-                    }
-                })?;
-            let assessed = self.assess(&solved);
+            let from = From {
+                trajectory: &trajectory,
+                previous: previous.as_ref(),
+                start,
+                deadline,
+            };
+            let solved = self.settled(&mut conditioning, from, &mut statistics, &mut |p| {
+                if stopped {
+                    Control::Stop
+                } else {
+                    monitor(Event::Solver(p))
+                }
+            })?;
+            let assessed = self.assess(&solved, &conditioning);
             records.push(self.record(&solved, &assessed, began));
             if self.diverges(&records) {
                 records[iteration - 1].verdict = Verdict::Diverging;
@@ -256,7 +282,10 @@ impl<O: Ocp> Refinement<'_, O> {
                 || records[iteration - 1].verdict == Verdict::Diverging
                 || law.is_last(&records);
             let next = (!ended)
-                .then(|| refined(&*law, &solved, &assessed, previous.as_ref()))
+                .then(|| {
+                    let trajectory = conditioning.in_units(&solved.trajectory, self.settings);
+                    refined(&*law, &trajectory, &assessed, previous.as_ref())
+                })
                 .flatten();
             records[iteration - 1].decisions = next
                 .as_ref()
@@ -316,15 +345,48 @@ impl<O: Ocp> Refinement<'_, O> {
             && later[later.len() - 1].objective > growth * first.objective.abs()
     }
 
+    /// Solves on the mesh of `from`, again where the solution is not as was supposed of it.
+    fn settled(
+        &self,
+        conditioning: &mut Conditioning<'_, O>,
+        from: From<'_>,
+        statistics: &mut Statistics,
+        monitor: &mut dyn FnMut(&Progress) -> Control,
+    ) -> Result<Solved, ipopt::IpoptError> {
+        let mut nlp_iterations = 0;
+        for attempt in 1.. {
+            let mesh = from.trajectory.mesh.clone();
+            let formulation = conditioning.formulation();
+            let mut program =
+                Transcription::within(self.ocp, formulation, conditioning.patterns(), mesh);
+            let (mut settings, iterate) = self.warm_start(&program, from);
+            settings.time_limit = from.deadline.remaining();
+            let units = conditioning.units(program.layout());
+            let mut solved =
+                self.solve(&mut program, &units, settings, iterate, statistics, monitor)?;
+            nlp_iterations += solved.nlp_iterations;
+            solved.nlp_iterations = nlp_iterations;
+            let again = conditioning.settle(&solved.trajectory, solved.status);
+            if !again || attempt == ATTEMPTS {
+                return Ok(solved);
+            }
+        }
+        unreachable!("the last attempt returns")
+    }
+
     /// Settings and starting iterate of `program`: `trajectory` with the multipliers of the mesh
     /// before, or on the first mesh with those of the start, where there are any.
     fn warm_start(
         &self,
         program: &Transcription<'_, O>,
-        trajectory: &Discretization,
-        previous: Option<&Previous>,
-        start: &Start,
+        from: From<'_>,
     ) -> (nlp::Settings, Iterate) {
+        let From {
+            trajectory,
+            previous,
+            start,
+            ..
+        } = from;
         let mut settings = self.solver.clone();
         let (mesh, layout) = (&trajectory.mesh, program.layout());
         let x = program.pack(trajectory);
@@ -359,16 +421,17 @@ impl<O: Ocp> Refinement<'_, O> {
         (settings, iterate)
     }
 
-    /// Solves `program` from `iterate`, and should a warm start fail, once more without multipliers.
+    /// Solves `program` in `units` from `iterate`, and should a warm start fail, once more without multipliers.
     fn solve(
         &self,
         program: &mut Transcription<'_, O>,
+        units: &Units,
         mut settings: nlp::Settings,
         iterate: Iterate,
         statistics: &mut Statistics,
         monitor: &mut dyn FnMut(&Progress) -> Control,
     ) -> Result<Solved, ipopt::IpoptError> {
-        let mut solution = ipopt::solve(program, &settings, &iterate, monitor)?;
+        let mut solution = in_units(program, units, &settings, &iterate, monitor)?;
         statistics.add(&solution.statistics);
         let mut nlp_iterations = solution.statistics.iterations;
         let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
@@ -378,7 +441,8 @@ impl<O: Ocp> Refinement<'_, O> {
             // a cold start.
             let spent = solution.statistics.total;
             settings.time_limit = settings.time_limit.map(|limit| limit.saturating_sub(spent));
-            solution = ipopt::solve(program, &settings, &Iterate::primal(iterate.x), monitor)?;
+            let primal = Iterate::primal(iterate.x);
+            solution = in_units(program, units, &settings, &primal, monitor)?;
             statistics.add(&solution.statistics);
             nlp_iterations += solution.statistics.iterations;
         }
@@ -393,8 +457,9 @@ impl<O: Ocp> Refinement<'_, O> {
     }
 
     /// Looks at a solution between its nodes.
-    fn assess(&self, solved: &Solved) -> Assessed {
+    fn assess(&self, solved: &Solved, conditioning: &Conditioning<'_, O>) -> Assessed {
         let errors = midpoint_errors(self.ocp, &solved.trajectory);
+        let errors = conditioning.measured(errors, self.settings);
         let max_error = errors.max();
         let accurate = max_error <= self.settings.tolerance;
         let outside = violations(self.ocp, &solved.trajectory);
@@ -468,15 +533,51 @@ impl<O: Ocp> Refinement<'_, O> {
     }
 }
 
-/// The next mesh by `law`.
+/// Solves `program` in `units`; start and result are in its own.
+fn in_units<O: Ocp>(
+    program: &mut Transcription<'_, O>,
+    units: &Units,
+    settings: &nlp::Settings,
+    start: &Iterate,
+    monitor: &mut dyn FnMut(&Progress) -> Control,
+) -> Result<nlp::Solution, ipopt::IpoptError> {
+    if units.are_one() {
+        return ipopt::solve(program, settings, start, monitor);
+    }
+    let mut scaled = Scaled::new(program, units);
+    let mut solution = ipopt::solve(&mut scaled, settings, &units.scaled(start), monitor)?;
+    solution.iterate = units.unscaled(&solution.iterate);
+    for (value, unit) in solution.constraints.iter_mut().zip(&units.rows) {
+        *value *= unit;
+    }
+    Ok(solution)
+}
+
+/// Ends of a straight line within `ends`, the bounds along the path included; `instants` are those
+/// of the ends alone. What is open at one end stays as it is at the other.
+fn line(ends: [Interval; 2], instants: [&Interval; 2]) -> [f64; 2] {
+    let meant = |k: usize| {
+        let (end, instant) = (ends[k], instants[k]);
+        let both = instant.lower.is_finite() && instant.upper.is_finite();
+        (end.is_fixed() || both).then(|| end.center())
+    };
+    match [meant(0), meant(1)] {
+        [Some(start), Some(end)] => [start, end],
+        [Some(start), None] => [start, ends[1].clamp(start)],
+        [None, Some(end)] => [ends[0].clamp(end), end],
+        [None, None] => ends.map(|end| end.clamp(0.0)),
+    }
+}
+
+/// The next mesh by `law`, `trajectory` being in the units of the errors.
 fn refined(
     law: &dyn RefinementLaw,
-    solved: &Solved,
+    trajectory: &Discretization,
     assessed: &Assessed,
     previous: Option<&Previous>,
 ) -> Option<Refined> {
     law.refine(&Assessment {
-        trajectory: &solved.trajectory,
+        trajectory,
         errors: &assessed.errors,
         before: previous.map(|old| (&old.solved.trajectory.mesh, &old.errors)),
         violations: &assessed.removable,

@@ -20,6 +20,16 @@ impl Errors {
         largest(self.by_segment.iter().flatten().copied())
     }
 
+    /// The same in units of `scales`, one a state.
+    pub fn in_units_of(mut self, scales: &[f64]) -> Self {
+        for row in &mut self.by_segment {
+            for (error, scale) in row.iter_mut().zip(scales) {
+                *error /= scale;
+            }
+        }
+        self
+    }
+
     /// The state with the largest error in segment `s`, and that error; one that is NaN counts as
     /// the largest.
     pub fn worst(&self, s: usize) -> (usize, f64) {

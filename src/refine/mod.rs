@@ -9,29 +9,38 @@
 //! | `violation` | bounds exceeded between the nodes |
 //! | `law`, `laws` | what a law is, and one file a law |
 //! | `curvature` | curvature of a state, eq. (29) and (31) |
+//! | `conditioning` | scales, far bounds and patterns, settled after each solve |
 //! | `transfer` | a solution with its multipliers from one mesh to another |
 //! | `driver` | the loop |
+//! | `solve` | all of it by one call |
+//! | `start_check`, `failure` | what is asked before the first solve, and why there is none |
 //! | `record`, `verdict` | what a mesh iteration came to |
 
+mod conditioning;
 mod curvature;
 mod driver;
 mod error;
+mod failure;
 mod law;
 mod laws;
 mod method;
 mod quadrature;
 mod record;
 mod settings;
+mod solve;
+mod start_check;
 mod transfer;
 mod verdict;
 mod violation;
 
 pub use driver::{Event, Outcome, Refinement, Start};
 pub use error::{Errors, midpoint_errors};
+pub use failure::SolveError;
 pub use law::{Assessment, Refined, RefinementLaw};
 pub use method::Method;
 pub use quadrature::quadrature_error;
 pub use record::{Decision, Record};
-pub use settings::{SettingError, Settings};
+pub use settings::{ErrorMeasure, SettingError, Settings};
+pub use solve::{SolveSettings, solve, solve_from};
 pub use verdict::Verdict;
 pub use violation::{Bounded, Violation, violations};

@@ -3,6 +3,30 @@
 use super::Method;
 use crate::collocation::Mesh;
 
+/// What the error (28) of a state is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum ErrorMeasure {
+    /// The state's scale, so that its unit plays no part. A scale of one makes no difference.
+    #[default]
+    Relative,
+    /// The state's unit, as in the paper.
+    Paper,
+}
+
+impl ErrorMeasure {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Relative, Self::Paper];
+
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Relative => "relative",
+            Self::Paper => "paper",
+        }
+    }
+}
+
 /// First mesh, tolerance and refinement law. Each field says its default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -15,6 +39,8 @@ pub struct Settings {
     pub points: usize,
     /// Tolerance ε_d on the largest error (28). Default 1e-5.
     pub tolerance: f64,
+    /// What that error is measured in. Default the scale of each state.
+    pub error: ErrorMeasure,
     /// Part of a bound's size by which states and path rows may exceed it between the nodes before
     /// the adaptive method refines there. Default 1e-3.
     pub bound_tolerance: f64,
@@ -42,6 +68,7 @@ impl Default for Settings {
             segments: 10,
             points: 5,
             tolerance: 1e-5,
+            error: ErrorMeasure::Relative,
             bound_tolerance: 1e-3,
             max_iterations: None,
             max_points: 20,

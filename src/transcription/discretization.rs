@@ -63,6 +63,17 @@ impl Discretization {
         )
     }
 
+    /// The same with the states in units of `scales`, one a state.
+    pub fn in_units_of(&self, scales: &[f64]) -> Self {
+        let mut scaled = self.clone();
+        for row in scaled.x.chunks_exact_mut(scales.len().max(1)) {
+            for (value, scale) in row.iter_mut().zip(scales) {
+                *value /= scale;
+            }
+        }
+        scaled
+    }
+
     /// States at node `k`; node `points` is t_f.
     pub fn state(&self, k: usize) -> &[f64] {
         &self.x[k * self.states..(k + 1) * self.states]

@@ -11,12 +11,17 @@ mod jacobian;
 mod layout;
 mod names;
 mod node_derivatives;
+mod pattern_check;
 mod patterns;
 mod points;
 mod program;
+mod reach;
+mod scales;
 mod way_point;
 
 pub use discretization::Discretization;
 pub use layout::{Layout, Row};
 pub use patterns::Patterns;
 pub use program::Transcription;
+pub use reach::Reach;
+pub use scales::Scales;

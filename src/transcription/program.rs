@@ -34,7 +34,11 @@ impl<O: Ocp> fmt::Debug for Transcription<'_, O> {
 impl<'a, O: Ocp> Transcription<'a, O> {
     /// Lays the problem out on `mesh`, with its sparsity as found by [`Patterns::detect`].
     pub fn new(ocp: &'a O, patterns: &Patterns, mesh: Mesh) -> Self {
-        let formulation = ocp.formulation();
+        Self::within(ocp, ocp.formulation(), patterns, mesh)
+    }
+
+    /// The same within the bounds of `formulation`, which is that of the problem but for them.
+    pub fn within(ocp: &'a O, formulation: Formulation, patterns: &Patterns, mesh: Mesh) -> Self {
         let layout = Layout::new(&formulation, &mesh);
         let evaluation = Evaluation::new(ocp, &formulation, patterns, &mesh, layout.clone());
         Self {

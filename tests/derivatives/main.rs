@@ -10,6 +10,7 @@ mod trees;
 
 mod checks;
 mod explicit_time;
+mod functions;
 mod in_space;
 mod in_the_plane;
 mod problem_kinds;

@@ -3,7 +3,7 @@
 use ffsm_ipopt::autodiff::{Scalar, Times};
 use num_dual::{DualNum, HyperDual64};
 use num_traits::{One, Zero};
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A `num-dual` number as a [`Scalar`]: arithmetic and functions are all its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,10 +24,18 @@ macro_rules! operators {
         impl $assign_trait for Reference {
             fn $assign(&mut self, rhs: Self) { *self = $trait::$method(*self, rhs); }
         }
+        impl $assign_trait<f64> for Reference {
+            fn $assign(&mut self, rhs: f64) { *self = $trait::$method(*self, rhs); }
+        }
     )*};
 }
 
-operators!(Add add AddAssign add_assign, Sub sub SubAssign sub_assign, Mul mul MulAssign mul_assign);
+operators!(
+    Add add AddAssign add_assign,
+    Sub sub SubAssign sub_assign,
+    Mul mul MulAssign mul_assign,
+    Div div DivAssign div_assign
+);
 
 impl Times<f64> for Reference {
     fn times(self, factor: f64) -> Self {
@@ -38,13 +46,6 @@ impl Times<f64> for Reference {
 impl Times<Self> for Reference {
     fn times(self, factor: Self) -> Self {
         self * factor
-    }
-}
-
-impl Div for Reference {
-    type Output = Self;
-    fn div(self, rhs: Self) -> Self {
-        Self(self.0 / rhs.0)
     }
 }
 

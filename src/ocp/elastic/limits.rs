@@ -174,17 +174,15 @@ impl<'a, O: Ocp> Elastic<'a, O> {
     }
 
     /// The two rows of one elastic bound: value − e·scale and value + e·scale.
-    pub(super) fn rows(&self, name: &str, group: usize, bounds: Interval) -> [Quantity; 2] {
-        let limit = &self.groups[group].name;
+    pub(super) fn rows(&self, of: &Quantity, group: usize, bounds: Interval) -> [Quantity; 2] {
+        let (name, limit) = (&of.name, &self.groups[group].name);
+        let row = |side: &str, bounds| Quantity {
+            scale: of.scale,
+            ..Quantity::new(format!("{name} {side} {limit}"), bounds)
+        };
         [
-            Quantity::new(
-                format!("{name} below {limit}"),
-                Interval::new(f64::NEG_INFINITY, bounds.upper),
-            ),
-            Quantity::new(
-                format!("{name} above {limit}"),
-                Interval::new(bounds.lower, f64::INFINITY),
-            ),
+            row("below", Interval::new(f64::NEG_INFINITY, bounds.upper)),
+            row("above", Interval::new(bounds.lower, f64::INFINITY)),
         ]
     }
 }

@@ -48,29 +48,29 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
     fn formulation(&self) -> Formulation {
         let mut formulation = self.base.clone();
         for bound in &self.path {
-            let name = match bound.quantity {
-                OnPath::State(i) => &self.base.states[i].name,
-                OnPath::Control(i) => &self.base.controls[i].name,
-                OnPath::Row(i) => &self.base.path[i].name,
+            let quantity = match bound.quantity {
+                OnPath::State(i) => &self.base.states[i],
+                OnPath::Control(i) => &self.base.controls[i],
+                OnPath::Row(i) => &self.base.path[i],
             };
-            let rows = self.rows(name, bound.group, bound.bounds);
+            let rows = self.rows(quantity, bound.group, bound.bounds);
             formulation.path.extend(rows);
         }
         for bound in &self.boundary {
-            let name = match bound.quantity {
-                AtInstant::State(i) => &self.base.states[i].name,
-                AtInstant::Row(b) => &self.base.boundary[b].name,
+            let quantity = match bound.quantity {
+                AtInstant::State(i) => &self.base.states[i],
+                AtInstant::Row(b) => &self.base.boundary[b],
             };
-            let rows = self.rows(name, bound.group, bound.bounds);
+            let rows = self.rows(quantity, bound.group, bound.bounds);
             formulation.boundary.extend(rows);
         }
         for (w, elastic) in self.way_points.iter().enumerate() {
             for bound in elastic {
-                let name = match bound.quantity {
-                    AtInstant::State(i) => &self.base.states[i].name,
-                    AtInstant::Row(r) => &self.base.way_points[w].rows[r].name,
+                let quantity = match bound.quantity {
+                    AtInstant::State(i) => &self.base.states[i],
+                    AtInstant::Row(r) => &self.base.way_points[w].rows[r],
                 };
-                let rows = self.rows(name, bound.group, bound.bounds);
+                let rows = self.rows(quantity, bound.group, bound.bounds);
                 formulation.way_points[w].rows.extend(rows);
             }
         }
@@ -82,9 +82,8 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         }
         for group in &self.groups {
             let amount = Interval::new(0.0, f64::INFINITY);
-            formulation
-                .states
-                .push(Quantity::new(format!("excess of {}", group.name), amount));
+            let excess = Quantity::new(format!("excess of {}", group.name), amount);
+            formulation.states.push(excess.scaled(1.0));
             formulation.initial.push(Interval::FREE);
             formulation.terminal.push(Interval::FREE);
         }

@@ -79,6 +79,17 @@ pub struct Row {
     pub quantity: Quantity,
 }
 
+/// Angles and what is made of them are of size one whatever their bounds; lengths and torques are
+/// not.
+fn natural_scale(unit: Unit) -> Option<f64> {
+    match unit {
+        Unit::One | Unit::Radian | Unit::RadianPerSecond | Unit::RadianPerSecondSquared => {
+            Some(1.0)
+        }
+        _ => None,
+    }
+}
+
 /// Least size of a bound, so that a bound of zero has one.
 const LEAST_SIZE: f64 = 1e-3;
 
@@ -92,7 +103,10 @@ impl Row {
             unit,
             size: finite.fold(LEAST_SIZE, f64::max),
             measure: Measure::Itself,
-            quantity: Quantity::new(name, bounds),
+            quantity: Quantity {
+                scale: natural_scale(unit),
+                ..Quantity::new(name, bounds)
+            },
         }
     }
 
