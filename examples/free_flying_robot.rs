@@ -71,7 +71,7 @@ impl Ocp for Robot {
 /// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let mut settings = ocp::Settings::default();
-    settings.mesh.max_iterations = 15;
+    settings.mesh.max_iterations = Some(15);
     let outcome = ocp::solve(&Robot, &settings)?;
     println!(
         "fuel {:.6} (known: 7.910154), {} points, largest error {:.1e}",
