@@ -106,7 +106,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         unit: 1.0,
     };
     let mut settings = ocp::Settings::default();
-    settings.mesh.max_iterations = 15;
+    settings.mesh.max_iterations = Some(15);
     let outcome = ocp::solve(&shuttle, &settings)?;
     let range = -outcome.objective.to_degrees();
     println!(

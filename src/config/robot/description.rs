@@ -150,13 +150,13 @@ impl Description {
         let moving = moving.map(|(j, entry)| (&entry.joint.body.name, Some(j), &still));
         let frames = self.frames.iter();
         let frames = frames.map(|frame| (&frame.name, frame.carrier, &frame.placement));
-        let names = base
+        let mut names = base
             .chain(moving)
             .chain(frames)
             .filter(|(_, joint, at)| joint == carrier && apart(at) < 1e-9)
             .map(|(name, ..)| name.to_owned());
         // The last is the one nearest to the tip.
-        names.last().or_else(|| {
+        names.next_back().or_else(|| {
             let body = match carrier {
                 Some(joint) => &self.joints[*joint].joint.body.name,
                 None => &self.base.name,

@@ -111,7 +111,7 @@ impl<Sp: Space> EndRows<Sp> for EndEffectorRows<Sp> {
             if self.goal.frame == GoalFrame::Start {
                 let start = at.plant.start_position.components();
                 for (value, &origin) in seen.components_mut().iter_mut().zip(start) {
-                    *value = *value - origin;
+                    *value -= origin;
                 }
                 if at.plant.starts_turned {
                     seen = at.plant.seen_from_start(&seen);

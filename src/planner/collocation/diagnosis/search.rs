@@ -76,7 +76,7 @@ struct Candidate {
 
 impl Candidate {
     fn is_gross(&self) -> bool {
-        !(self.error < GROSS)
+        self.error.is_nan() || self.error >= GROSS
     }
 }
 
@@ -151,7 +151,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         };
         let mut least = f64::INFINITY;
         for part in SEARCHED {
-            let candidates = self.from_starts(&elastic(part), &patterns, &mut found)?;
+            let candidates = self.try_starts(&elastic(part), &patterns, &mut found)?;
             let rough = candidates.first().is_none_or(Candidate::is_gross);
             for candidate in candidates.into_iter().take(REFINED) {
                 let states = self.system.formulation().states.len();
@@ -185,7 +185,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
     }
 
     /// Solves `elastic` on the first mesh from one start after another.
-    fn from_starts(
+    fn try_starts(
         &mut self,
         elastic: &Elastic<'_, FreeFloating<Sp>>,
         patterns: &Patterns,
