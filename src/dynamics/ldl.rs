@@ -75,7 +75,7 @@ impl Ldl<f64> {
             }
         }
         for i in (0..n).rev() {
-            b[i] = b[i] * self.inverse_diagonal[i];
+            b[i] *= self.inverse_diagonal[i];
             for k in i + 1..n {
                 b[i] = b[i].plus_times(b[k], -self.lower[k * n + i]);
             }

@@ -168,7 +168,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool, D: Side> SpatialVector<Sp, 
     #[inline(always)]
     pub fn derivatives(mut self, value: &SpatialVector<Sp, f64, D>, factor: f64) -> Self {
         for (c, &value) in self.iter_mut().zip(value.iter()) {
-            *c = *c * factor;
+            *c *= factor;
             c.value = value;
         }
         self

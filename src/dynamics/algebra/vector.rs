@@ -36,7 +36,7 @@ pub trait Vector<S: Scalar>:
     #[inline(always)]
     fn times(mut self, factor: f64) -> Self {
         for c in self.components_mut() {
-            *c = *c * factor;
+            *c *= factor;
         }
         self
     }

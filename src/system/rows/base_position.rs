@@ -62,7 +62,7 @@ impl<Sp: Space> EndRows<Sp> for BasePositionRows {
         let position = at.plant.base_position(at.eta, at.t, &at.data.system_center);
         rows.copy_from_slice(position.components());
         for (row, &start) in rows.iter_mut().zip(at.plant.start_position.components()) {
-            *row = *row - start;
+            *row -= start;
         }
     }
 }

@@ -107,7 +107,7 @@ impl<Sp: Space> EndRows<Sp> for EndEffectorRows<Sp> {
             if self.goal.frame == GoalFrame::Start {
                 let start = at.plant.start_position.components();
                 for (value, &origin) in point.iter_mut().zip(start) {
-                    *value = *value - origin;
+                    *value -= origin;
                 }
             }
         }
