@@ -702,7 +702,7 @@ fn assert_unit_free<O: Ocp>(make: impl Fn() -> O, states: usize, optimum: f64, t
     let points = |outcome: &Outcome| outcome.trajectory.mesh.points();
     let plain = solved(&make(), 20);
     assert_relative(plain.objective, optimum, tolerance);
-    for unit in [1e-6, 1e-3, 0.02, 50.0, 1e4, 1e7] {
+    for unit in [1e-6, 0.02, 50.0, 1e7] {
         let inner = make();
         let units = vec![unit; states];
         let outcome = solved(&InUnits { inner, units }, 20);

@@ -3,6 +3,7 @@
 use super::Measured;
 use crate::config::ProblemFile;
 use crate::nlp::ipopt;
+use crate::refine::ErrorMeasure;
 use crate::refine::Method::{Adaptive, Global};
 use crate::report::{Sheet, exact, short};
 use crate::reproduction::{CASES, ReproductionError, Session};
@@ -74,7 +75,10 @@ pub fn rows(session: &mut Session<'_>, repeat: u16) -> Result<Vec<Row>, Reproduc
     for (name, optimum) in CASES {
         let case = ProblemFile::shipped(name)?.problem;
         for (tolerance, global, adaptive) in PUBLISHED {
-            let problem = case.edited(|problem| problem.mesh.tolerance = tolerance)?;
+            let problem = case.edited(|problem| {
+                problem.mesh.tolerance = tolerance;
+                problem.mesh.error = ErrorMeasure::Paper;
+            })?;
             for (method, published) in [(Global, global), (Adaptive, adaptive)] {
                 let measured = Measured::of(session, &problem, method, repeat)?;
                 rows.push(Row {
