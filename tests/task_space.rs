@@ -86,6 +86,11 @@ fn a_point_seen_from_the_start_is_the_same_point() {
 #[test]
 fn a_base_that_starts_turned_moves_as_one_that_does_not() {
     let turn: f64 = 0.7;
+    // A pose that the arm can reach, seen from the start.
+    let by_joints = plan(&two_link()).unwrap();
+    let (point, heading) = tip(&by_joints);
+    let start = &by_joints.trajectory.base_position[0];
+    let seen = vec![point[0] - start[0], point[1] - start[1]];
     let problem = |turned: f64| {
         let problem = two_link().edited(|problem| {
             // What is counted from the inertial axes would tell them apart.
@@ -94,9 +99,9 @@ fn a_base_that_starts_turned_moves_as_one_that_does_not() {
             problem.task.initial_base_attitude = vec![turned];
             problem.task.end_effector = Some(EndEffectorGoal {
                 frame: GoalFrame::Start,
-                position: Some(vec![0.2, 0.7]),
+                position: Some(seen.clone()),
                 position_tolerance: 0.01,
-                orientation: Some(vec![1.2]),
+                orientation: Some(vec![heading]),
                 orientation_tolerance: 0.2,
             });
         });

@@ -48,7 +48,7 @@ fn masses_and_inertias() {
         (
             UPPER,
             "<inertia ixx=\"0.02\" iyy=\"0.09\" izz=\"0.1\"/>",
-            "arm.urdf:21: link 'upper' <inertial> <inertia> ixy: missing; expected a finite number, kg m²",
+            "arm.urdf: 3 faults: (1) arm.urdf:21: link 'upper' <inertial> <inertia> ixy: missing; expected a finite number, kg m²; (2) arm.urdf:21: link 'upper' <inertial> <inertia> ixz: missing; expected a finite number, kg m²; (3) arm.urdf:21: link 'upper' <inertial> <inertia> iyz: missing; expected a finite number, kg m²",
         ),
         (
             UPPER,

@@ -50,7 +50,7 @@ impl Robot {
                     mended.base.inertia = Inertia::ball(1.0);
                     base = Some(cause);
                 }
-                ModelError::MasslessJoint { ref joint, .. } if massless.len() < MOST_MASSLESS => {
+                ModelError::MasslessJoint { ref joint, .. } if !known(&massless, joint) => {
                     let entry = mended.joints.iter_mut().find(|e| e.joint.name == *joint);
                     let entry = entry.expect("a joint of this robot");
                     entry.joint.body.inertia = entry.joint.body.inertia.lumped(&Inertia::ball(1.0));
@@ -115,6 +115,11 @@ impl Robot {
 
 /// Massless joints that are named at most.
 const MOST_MASSLESS: usize = 40;
+
+/// Whether the search for massless joints ends: mass does not help one of two about the same axis.
+fn known(massless: &[(String, ModelError)], joint: &str) -> bool {
+    massless.len() == MOST_MASSLESS || massless.iter().any(|(name, _)| name == joint)
+}
 
 /// Not one link has a mass: said once, and not of every joint.
 fn kinematic(place: &Place) -> ConfigError {
