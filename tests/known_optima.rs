@@ -673,7 +673,7 @@ impl<O: Ocp> Ocp for InUnits<O> {
             .inner
             .continuous(inner, &mut scratch.inner, rates, path);
         for (rate, &unit) in rates.iter_mut().zip(&self.units) {
-            *rate = *rate / unit;
+            *rate /= unit;
         }
         cost
     }
