@@ -11,7 +11,7 @@ pub(super) enum Unusable {
     /// They could not be read.
     Unread(Faults),
     /// No body has them.
-    Unphysical(Figures, InertiaError),
+    Unphysical(Box<Figures>, InertiaError),
 }
 
 impl Unusable {

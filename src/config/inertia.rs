@@ -21,7 +21,7 @@ pub(super) fn read(section: &Section<'_>) -> Result<Inertia, ConfigError> {
 pub(super) fn read_body(section: &Section<'_>) -> Result<Result<Inertia, Unusable>, ConfigError> {
     let figures = figures(section)?;
     let inertia = body(&figures);
-    Ok(inertia.map_err(|cause| Unusable::Unphysical(figures, cause)))
+    Ok(inertia.map_err(|cause| Unusable::Unphysical(Box::new(figures), cause)))
 }
 
 fn body(figures: &Figures) -> Result<Inertia, InertiaError> {

@@ -74,7 +74,7 @@ fn inertia(element: &Element<'_, '_>) -> Result<Inertia, Unusable> {
     // Judged as it stands in the file, not as turned.
     figures
         .inertia()
-        .map_err(|cause| Unusable::Unphysical(figures, cause))
+        .map_err(|cause| Unusable::Unphysical(Box::new(figures), cause))
 }
 
 fn mass(element: &Element<'_, '_>) -> Result<f64, ConfigError> {
