@@ -34,19 +34,19 @@ fn masses_and_inertias() {
             "inertia = 0.1454",
             "inertia = -1",
             12,
-            "base.inertia: inertia is not positive definite: its smallest principal moment is -1.000000e0 kg m², expected above zero",
+            "base.inertia: inertia is not positive definite: its smallest principal moment is -1.000000e0 kg m², expected above zero; robot.repair = \"inertia\" (or --repair) takes the nearest that a body can have",
         ),
         (
             "inertia = 0.1454",
             "inertia = [[1, 0, 0], [0, 1, 0.5], [0, 0, 1]]",
             12,
-            "base.inertia: inertia is not symmetric: element (2, 3) and its mirror differ by 5.000e-1 kg m²",
+            "base.inertia: inertia is not symmetric: element (2, 3) and its mirror differ by 5.000e-1 kg m²; robot.repair = \"inertia\" (or --repair) takes the nearest that a body can have",
         ),
         (
             "inertia = 0.1454",
             "inertia = [1.0, 1.0, 3.0]",
             12,
-            "base.inertia: inertia breaks the triangle inequality: principal moments 1.000000e0, 1.000000e0, 3.000000e0 kg m², the largest may not exceed the sum of the others",
+            "base.inertia: inertia breaks the triangle inequality: principal moments 1.000000e0, 1.000000e0, 3.000000e0 kg m², the largest may not exceed the sum of the others; robot.repair = \"inertia\" (or --repair) takes the nearest that a body can have",
         ),
     ] {
         assert_eq!(robot(old, new), format!("robot.toml:{line}: {expected}"));
