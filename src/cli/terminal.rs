@@ -7,7 +7,7 @@ use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
 /// Longest line of a message, characters.
-const LONGEST: usize = 1_000;
+const LONGEST: usize = 4_000;
 
 /// Writes to standard output. A reader that has gone away is no failure, as a terminal that was
 /// closed is none.

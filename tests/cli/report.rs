@@ -107,9 +107,9 @@ from = { center = [0.0, 0.0, 0.0], half = [0.2, 0.1, 0.1] }
     let run = folder.run(&["plan", "case.toml", "--out", "o"]);
     assert_eq!(run.code, 0, "{run:?}");
     let scene = scene(&folder.read("o/report.html"));
-    assert_eq!(scene["balls"][0][1], 0.05);
+    assert_eq!(scene["swept_spheres"][0][1], 0.05);
     assert_eq!(scene["boxes"].as_array().unwrap().len(), 4);
-    let ball = scene["balls"][0][0].as_u64().unwrap() as usize;
+    let ball = scene["swept_spheres"][0][0][0].as_u64().unwrap() as usize;
     let elbow = scene["joints"][1].as_u64().unwrap() as usize;
     let corner = scene["boxes"][0][0].as_u64().unwrap() as usize;
     let base = scene["links"][0][0].as_u64().unwrap() as usize;

@@ -4,7 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+use syn::buffer::TokenBuffer;
 use syn::{Attribute, Item, ItemUse, Meta, UseTree, Visibility};
+
+use crate::tokens::public_types;
 
 /// The texts of a crate's files by their path below `src`.
 pub struct Sources(pub BTreeMap<String, String>);
@@ -140,6 +143,15 @@ impl Parser<'_> {
                 open: is_open(&declared.vis),
             });
             return;
+        }
+        if let Item::Macro(made) = &item {
+            for name in public_types(&TokenBuffer::new2(made.mac.tokens.clone())) {
+                self.all[id].names.push(Name {
+                    name,
+                    meaning: Meaning::Item(Kind::Type(BTreeSet::new())),
+                    open: true,
+                });
+            }
         }
         if let Item::Use(import) = &item {
             self.all[id].import(import);

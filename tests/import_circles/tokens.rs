@@ -54,3 +54,31 @@ fn next_segment(cursor: Cursor) -> Option<(String, Cursor)> {
     let joined = first.as_char() == ':' && second.as_char() == ':';
     joined.then(|| (segment.unraw().to_string(), cursor))
 }
+
+/// Names of the public types that a macro's rules write out: where it is used, in the same file, they
+/// are made.
+pub fn public_types(tokens: &TokenBuffer) -> Vec<String> {
+    let mut found = Vec::new();
+    types_after(tokens.begin(), &mut found);
+    found
+}
+
+fn types_after(mut cursor: Cursor, found: &mut Vec<String>) {
+    let mut before = [String::new(), String::new()];
+    while !cursor.eof() {
+        if let Some((inside, _, _, after)) = cursor.any_group() {
+            types_after(inside, found);
+            (before, cursor) = (Default::default(), after);
+        } else if let Some((word, after)) = cursor.ident() {
+            let word = word.to_string();
+            let [public, kind] = &before;
+            if public == "pub" && ["enum", "struct", "trait"].contains(&kind.as_str()) {
+                found.push(word.clone());
+            }
+            let [_, kind] = before;
+            (before, cursor) = ([kind, word], after);
+        } else if let Some((_, after)) = cursor.token_tree() {
+            (before, cursor) = (Default::default(), after);
+        }
+    }
+}
