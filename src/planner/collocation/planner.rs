@@ -172,8 +172,9 @@ impl<Sp: Space> Search<'_, Sp> {
         if !diagnosed.feasible {
             return Ok(ended(Status::NotConverged, outcome, None));
         }
+        // On the first mesh again: that of the diagnosis was refined for another cost.
         let again = Start {
-            trajectory: diagnosed.trajectory,
+            trajectory: diagnosed.trajectory.resample(start.trajectory.mesh.clone()),
             iterate: None,
         };
         let mut second = self.refine(&again, monitor)?;
