@@ -57,7 +57,7 @@ impl<'a, O: Ocp> Conditioning<'a, O> {
 
     /// Mends what does not hold of `solution`; whether it has to be solved again.
     pub fn settle(&mut self, solution: &Discretization, status: Status) -> bool {
-        if status == Status::Interrupted {
+        if matches!(status, Status::Interrupted | Status::TimeLimit) {
             return false;
         }
         let reach = Reach::of(self.ocp, &self.all, solution);

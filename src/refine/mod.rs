@@ -11,7 +11,10 @@
 //! | `curvature` | curvature of a state, eq. (29) and (31) |
 //! | `conditioning` | scales, far bounds and patterns, settled after each solve |
 //! | `transfer` | a solution with its multipliers from one mesh to another |
+//! | `start` | where the loop starts from |
 //! | `driver` | the loop |
+//! | `mesh_solve` | the solve on one mesh |
+//! | `outcome` | where the loop ended |
 //! | `solve` | all of it by one call |
 //! | `start_check`, `failure` | what is asked before the first solve, and why there is none |
 //! | `record`, `verdict` | what a mesh iteration came to |
@@ -23,24 +26,29 @@ mod error;
 mod failure;
 mod law;
 mod laws;
+mod mesh_solve;
 mod method;
+mod outcome;
 mod quadrature;
 mod record;
 mod settings;
 mod solve;
+mod start;
 mod start_check;
 mod transfer;
 mod verdict;
 mod violation;
 
-pub use driver::{Event, Outcome, Refinement, Start};
+pub use driver::{Event, Refinement};
 pub use error::{Errors, midpoint_errors};
 pub use failure::SolveError;
 pub use law::{Assessment, Refined, RefinementLaw};
 pub use method::Method;
+pub use outcome::{CutShort, Outcome};
 pub use quadrature::quadrature_error;
 pub use record::{Decision, Record};
 pub use settings::{ErrorMeasure, SettingError, Settings};
 pub use solve::{SolveSettings, solve, solve_from};
+pub use start::Start;
 pub use verdict::Verdict;
 pub use violation::{Bounded, Violation, violations};

@@ -9,7 +9,7 @@ use crate::nlp::{self, Control, Deadline, ipopt};
 use crate::ocp::Ocp;
 use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
 use crate::problem::Problem;
-use crate::refine::{Outcome, Refinement, Start, Verdict, midpoint_errors};
+use crate::refine::{CutShort, Outcome, Refinement, Start, Verdict, midpoint_errors};
 use crate::system::{
     FreeFloating, JointPath, System, along, goal_errors_in, metrics, trajectory, with_system,
 };
@@ -154,7 +154,9 @@ impl<Sp: Space> Search<'_, Sp> {
         let (problem, system) = (self.problem, self.system);
         let diagnosed =
             diagnosis::diagnose(problem, system, &outcome.trajectory, self.deadline, monitor)?;
-        outcome.out_of_time |= self.deadline.has_passed();
+        if self.deadline.has_passed() {
+            outcome.cut_short = Some(CutShort::OutOfTime);
+        }
         outcome.statistics.add(&diagnosed.statistics);
         let ended = |status, outcome, diagnosis| Found {
             status,
@@ -217,7 +219,7 @@ impl<Sp: Space> Search<'_, Sp> {
 /// solutions that only need finer meshes.
 fn asks_why(outcome: &Outcome) -> bool {
     let last = outcome.records.last().map(|record| record.verdict);
-    !outcome.out_of_time && (!outcome.status.is_solved() || last == Some(Verdict::Diverging))
+    outcome.cut_short.is_none() && (!outcome.status.is_solved() || last == Some(Verdict::Diverging))
 }
 
 /// The plan of what was found.
@@ -288,7 +290,7 @@ fn check_start<Sp: Space>(start: &Start, system: &FreeFloating<Sp>) -> Result<()
 }
 
 fn grade(outcome: &Outcome, stopped: bool) -> Status {
-    if stopped || outcome.status == nlp::Status::Interrupted {
+    if stopped || outcome.cut_short == Some(CutShort::Interrupted) {
         Status::Interrupted
     } else if outcome.converged {
         Status::Solved

@@ -3,7 +3,7 @@
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::largest::largest;
 use crate::nlp::{self, ipopt};
-use crate::refine::Outcome;
+use crate::refine::{CutShort, Outcome};
 use crate::system::Trajectory;
 
 /// The warnings about a trajectory, and about how it was found.
@@ -25,15 +25,20 @@ pub(super) fn warnings(
 fn discarded(outcome: &Outcome) -> Option<String> {
     let count = outcome.discarded.len();
     let meshes = if count == 1 { "mesh" } else { "meshes" };
-    if outcome.out_of_time {
-        return Some(format!(
-            "the time limit ended the planning; this is the best trajectory until then{}",
-            if count > 0 {
-                ", of the last mesh that was solved"
-            } else {
-                ""
-            }
-        ));
+    let of_mesh = if count > 0 {
+        ", of the last mesh that was solved"
+    } else {
+        ""
+    };
+    match outcome.cut_short {
+        Some(CutShort::OutOfTime) => {
+            return Some(format!(
+                "the time limit ended the planning; this is the best trajectory until then{of_mesh}"
+            ));
+        }
+        // The status says it.
+        Some(_) => return None,
+        None => {}
     }
     (count > 0).then(|| {
         format!(

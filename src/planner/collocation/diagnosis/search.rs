@@ -11,7 +11,7 @@ use crate::nlp::{self, Control, Deadline, Statistics};
 use crate::ocp::{Elastic, Interval, LimitGroup, Ocp};
 use crate::planner::{Event, LimitFinding, PlanError, Starts};
 use crate::problem::Problem;
-use crate::refine::{self, Method, Outcome, Refinement, Start};
+use crate::refine::{self, CutShort, Method, Outcome, Refinement, Start};
 use crate::system::{ElasticLimit, FreeFloating, JointPath, along};
 use crate::transcription::{Discretization, Patterns};
 
@@ -164,7 +164,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
                     }
                     let elastic = elastic(*part);
                     let outcome = self.solve(&elastic, &patterns, MESHES, &candidate.trajectory)?;
-                    found.interrupted = outcome.status == nlp::Status::Interrupted;
+                    found.interrupted = outcome.cut_short == Some(CutShort::Interrupted);
                     if !outcome.converged {
                         continue;
                     }
@@ -206,7 +206,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             }
             let from = extend(&self.start(start, &mesh, &mut random), elastic);
             let outcome = self.solve(elastic, patterns, 1, &from)?;
-            found.interrupted = outcome.status == nlp::Status::Interrupted;
+            found.interrupted = outcome.cut_short == Some(CutShort::Interrupted);
             let enough = candidates.add(&outcome, elastic);
             if enough || found.interrupted || self.deadline.has_passed() {
                 break;

@@ -1,0 +1,182 @@
+//! The solve on one mesh: in units of the problem's sizes, warm where the mesh before allows it, and
+//! again where its solution contradicts what was supposed of it.
+
+use super::conditioning::Conditioning;
+use super::transfer::{Duals, saved_layout};
+use super::{Errors, Start};
+use crate::nlp::{
+    self, Control, Deadline, Iterate, Progress, Scaled, Statistics, Status, Units, ipopt,
+};
+use crate::ocp::Ocp;
+use crate::transcription::{Discretization, Layout, Transcription};
+
+/// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
+/// below it that the first barrier problem is the last, and costs are as exact as from a cold start.
+const REFINED_BARRIER: f64 = 0.1;
+
+/// The same as a multiple of the error of the mesh before, where that is above [`ROUGH`]: far from
+/// the solution a smaller barrier keeps the iterates at the wrong bounds.
+const ERROR_BARRIER: f64 = 1e-5;
+const ROUGH: f64 = 0.1;
+
+/// Ipopt's own barrier parameter at a cold start.
+const LARGEST_BARRIER: f64 = 0.1;
+
+/// Most solves on one mesh, should its solutions not be as was supposed.
+const ATTEMPTS: u32 = 4;
+
+/// What the solves on all meshes share.
+pub(super) struct MeshSolver<'a, O> {
+    pub ocp: &'a O,
+    pub settings: &'a nlp::Settings,
+    /// Where the loop began.
+    pub start: &'a Start,
+    /// When all solves have to have ended.
+    pub deadline: Deadline,
+}
+
+/// The solution of one programme.
+pub(super) struct Solved {
+    pub trajectory: Discretization,
+    pub layout: Layout,
+    pub iterate: Iterate,
+    pub status: Status,
+    pub objective: f64,
+    pub nlp_iterations: u32,
+}
+
+/// What the mesh before leaves to the next.
+pub(super) struct Previous {
+    pub solved: Solved,
+    pub errors: Errors,
+}
+
+impl<O: Ocp> MeshSolver<'_, O> {
+    /// Solves on the mesh of `trajectory`, again where the solution is not as was supposed of it.
+    pub fn settled(
+        &self,
+        conditioning: &mut Conditioning<'_, O>,
+        trajectory: &Discretization,
+        previous: Option<&Previous>,
+        statistics: &mut Statistics,
+        monitor: &mut dyn FnMut(&Progress) -> Control,
+    ) -> Result<Solved, ipopt::IpoptError> {
+        let mut nlp_iterations = 0;
+        for attempt in 1.. {
+            let mesh = trajectory.mesh.clone();
+            let formulation = conditioning.formulation();
+            let mut program =
+                Transcription::within(self.ocp, formulation, conditioning.patterns(), mesh);
+            let (mut settings, iterate) = self.warm_start(&program, trajectory, previous);
+            settings.time_limit = self.deadline.remaining();
+            let units = conditioning.units(program.layout());
+            let mut solved =
+                self.solve(&mut program, &units, settings, iterate, statistics, monitor)?;
+            nlp_iterations += solved.nlp_iterations;
+            solved.nlp_iterations = nlp_iterations;
+            let again = conditioning.settle(&solved.trajectory, solved.status);
+            if !again || attempt == ATTEMPTS {
+                return Ok(solved);
+            }
+        }
+        unreachable!("the last attempt returns")
+    }
+
+    /// Settings and starting iterate of `program`: `trajectory` with the multipliers of the mesh
+    /// before, or on the first mesh with those of the start, where there are any.
+    fn warm_start(
+        &self,
+        program: &Transcription<'_, O>,
+        trajectory: &Discretization,
+        previous: Option<&Previous>,
+    ) -> (nlp::Settings, Iterate) {
+        let mut settings = self.settings.clone();
+        let (mesh, layout) = (&trajectory.mesh, program.layout());
+        let x = program.pack(trajectory);
+        let iterate = match (previous, &self.start.iterate) {
+            (
+                Some(Previous {
+                    solved: old,
+                    errors,
+                }),
+                _,
+            ) => {
+                let error = errors.max();
+                settings.warm_start = Some(if error > ROUGH {
+                    (ERROR_BARRIER * error).min(LARGEST_BARRIER)
+                } else {
+                    REFINED_BARRIER * settings.tolerance
+                });
+                Duals::new(&old.trajectory.mesh, &old.layout, &old.iterate).on(mesh, layout, x)
+            }
+            (None, Some(saved)) if settings.warm_start.is_some() => {
+                match saved_layout(saved, layout) {
+                    Some(old) if old == *layout => Iterate { x, ..saved.clone() },
+                    Some(old) => Duals::new(mesh, &old, saved).on(mesh, layout, x),
+                    None => Iterate::primal(x),
+                }
+            }
+            _ => Iterate::primal(x),
+        };
+        if !iterate.has_multipliers(layout.rows()) {
+            settings.warm_start = None;
+        }
+        (settings, iterate)
+    }
+
+    /// Solves `program` in `units` from `iterate`, and should a warm start fail, once more without
+    /// multipliers.
+    fn solve(
+        &self,
+        program: &mut Transcription<'_, O>,
+        units: &Units,
+        mut settings: nlp::Settings,
+        iterate: Iterate,
+        statistics: &mut Statistics,
+        monitor: &mut dyn FnMut(&Progress) -> Control,
+    ) -> Result<Solved, ipopt::IpoptError> {
+        let mut solution = in_units(program, units, &settings, &iterate, monitor)?;
+        statistics.add(&solution.statistics);
+        let mut nlp_iterations = solution.statistics.iterations;
+        let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
+        let gave_up = !solution.status.is_solved() && !stopped;
+        if gave_up && settings.warm_start.take().is_some() {
+            // Multipliers may mislead; the same trajectory without them has every chance of
+            // a cold start.
+            let spent = solution.statistics.total;
+            settings.time_limit = settings.time_limit.map(|limit| limit.saturating_sub(spent));
+            let primal = Iterate::primal(iterate.x);
+            solution = in_units(program, units, &settings, &primal, monitor)?;
+            statistics.add(&solution.statistics);
+            nlp_iterations += solution.statistics.iterations;
+        }
+        Ok(Solved {
+            trajectory: program.unpack(&solution.iterate.x),
+            layout: program.layout().clone(),
+            iterate: solution.iterate,
+            status: solution.status,
+            objective: solution.objective,
+            nlp_iterations,
+        })
+    }
+}
+
+/// Solves `program` in `units`; start and result are in its own.
+fn in_units<O: Ocp>(
+    program: &mut Transcription<'_, O>,
+    units: &Units,
+    settings: &nlp::Settings,
+    start: &Iterate,
+    monitor: &mut dyn FnMut(&Progress) -> Control,
+) -> Result<nlp::Solution, ipopt::IpoptError> {
+    if units.are_one() {
+        return ipopt::solve(program, settings, start, monitor);
+    }
+    let mut scaled = Scaled::new(program, units);
+    let mut solution = ipopt::solve(&mut scaled, settings, &units.scaled(start), monitor)?;
+    solution.iterate = units.unscaled(&solution.iterate);
+    for (value, unit) in solution.constraints.iter_mut().zip(&units.rows) {
+        *value *= unit;
+    }
+    Ok(solution)
+}

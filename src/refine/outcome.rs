@@ -1,0 +1,74 @@
+//! Where a refinement ended.
+
+use super::{Record, Violation};
+use crate::nlp::{Iterate, Statistics, Status};
+use crate::transcription::Discretization;
+
+/// What ends a refinement from outside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CutShort {
+    /// The monitor, or an interrupt.
+    Interrupted,
+    /// The time limit.
+    OutOfTime,
+}
+
+/// Where the loop ended.
+///
+/// All but `discarded` and `statistics` belongs to one mesh iteration, that of the last of `records`.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// The trajectory on the mesh that counts.
+    pub trajectory: Discretization,
+    /// Its primal and dual values.
+    pub iterate: Iterate,
+    /// How its solve ended.
+    pub status: Status,
+    /// Its objective.
+    pub objective: f64,
+    /// One record a mesh iteration; the last is that of `trajectory`.
+    pub records: Vec<Record>,
+    /// Records of the mesh iterations after that one, which ended without a solution to be preferred:
+    /// they were tried for the sake of bounds that are exceeded between the nodes and did not
+    /// converge, or they were cut short.
+    pub discarded: Vec<Record>,
+    /// Whether the solve succeeded, the largest error is within the tolerance, and no bound is far
+    /// exceeded between the nodes. Never where an error or a bounded row is NaN. The last record's
+    /// [`Verdict`] says what is missing.
+    pub converged: bool,
+    /// What ended the refinement before it had converged, where that was neither the law nor a failed
+    /// solve.
+    pub cut_short: Option<CutShort>,
+    /// The worst violation of every bound that is exceeded between the nodes by more than
+    /// [`Settings::bound_tolerance`].
+    pub violations: Vec<Violation>,
+    /// Counts and times of all solves together, those of `discarded` included; barrier parameter
+    /// and infeasibilities are those of the solve that counts.
+    pub statistics: Statistics,
+}
+
+impl Outcome {
+    /// Largest error (28) of the trajectory; NaN where the problem's rates are NaN.
+    pub fn max_error(&self) -> f64 {
+        self.records
+            .last()
+            .map_or(f64::INFINITY, |record| record.max_error)
+    }
+
+    /// This outcome, `later` being what came of the meshes after it.
+    pub(super) fn preferred_to(self, later: Self) -> Self {
+        Self {
+            discarded: later.records[self.records.len()..].to_vec(),
+            cut_short: later.cut_short.filter(|_| !self.converged),
+            statistics: Statistics {
+                barrier: self.statistics.barrier,
+                primal_infeasibility: self.statistics.primal_infeasibility,
+                dual_infeasibility: self.statistics.dual_infeasibility,
+                ..later.statistics
+            },
+            ..self
+        }
+    }
+}
