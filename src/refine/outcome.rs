@@ -36,13 +36,13 @@ pub struct Outcome {
     pub discarded: Vec<Record>,
     /// Whether the solve succeeded, the largest error is within the tolerance, and no bound is far
     /// exceeded between the nodes. Never where an error or a bounded row is NaN. The last record's
-    /// [`Verdict`] says what is missing.
+    /// [`Verdict`](super::Verdict) says what is missing.
     pub converged: bool,
     /// What ended the refinement before it had converged, where that was neither the law nor a failed
     /// solve.
     pub cut_short: Option<CutShort>,
     /// The worst violation of every bound that is exceeded between the nodes by more than
-    /// [`Settings::bound_tolerance`].
+    /// [`Settings::bound_tolerance`](super::Settings::bound_tolerance).
     pub violations: Vec<Violation>,
     /// Counts and times of all solves together, those of `discarded` included; barrier parameter
     /// and infeasibilities are those of the solve that counts.
