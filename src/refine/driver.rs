@@ -1,14 +1,14 @@
 //! Solves on one mesh after another until the error is within the tolerance.
 
+use super::assess::{Assessed, Assessor};
 use super::conditioning::Conditioning;
 use super::mesh_solve::{MeshSolver, Previous, Solved};
 use super::start::straight;
 use super::transfer::resample;
 use super::violation::worst_of_each;
 use super::{
-    Assessment, Bounded, CutShort, Errors, Outcome, Record, Refined, RefinementLaw, Settings,
-    SolveError, Start, Verdict, Violation, midpoint_errors, quadrature_error, start_check,
-    violations,
+    Assessment, CutShort, Outcome, Record, Refined, RefinementLaw, Settings, SolveError, Start,
+    Verdict, quadrature_error, start_check,
 };
 use crate::largest::largest;
 use crate::nlp::{self, Control, Deadline, Progress, Statistics, Status};
@@ -28,9 +28,6 @@ const WILD: f64 = 1.0;
 /// Factor by which the cost then is larger at least on the second.
 const WILD_GROWTH: f64 = 2.0;
 
-/// Part of its size by which a bound may be exceeded between the nodes of a mesh that counts.
-const FAR: f64 = 0.05;
-
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
@@ -48,16 +45,6 @@ pub enum Event<'a> {
     Solver(&'a Progress),
     /// A mesh iteration ended.
     Solved(&'a Record),
-}
-
-/// What a solution is worth.
-struct Assessed {
-    errors: Errors,
-    /// Bounds exceeded between the nodes, by segments.
-    outside: Vec<Vec<Violation>>,
-    /// Those of `outside` that another mesh can mend.
-    removable: Vec<Vec<Violation>>,
-    verdict: Verdict,
 }
 
 /// One problem with its settings, ready to be solved on a sequence of meshes.
@@ -135,6 +122,7 @@ impl<O: Ocp> Refinement<'_, O> {
             start,
             deadline,
         };
+        let assessor = Assessor::new(self.ocp, self.patterns, self.settings);
         let mut previous: Option<Previous> = None;
         let mut best: Option<Outcome> = None;
         loop {
@@ -158,7 +146,7 @@ impl<O: Ocp> Refinement<'_, O> {
                 &mut statistics,
                 &mut on_step,
             )?;
-            let assessed = self.assess(&solved, &conditioning);
+            let assessed = assessor.assess(&solved, &conditioning);
             records.push(self.record(&solved, &assessed, began));
             if self.diverges(&records) {
                 records[iteration - 1].verdict = Verdict::Diverging;
@@ -207,9 +195,12 @@ impl<O: Ocp> Refinement<'_, O> {
                     }
                 }
                 None => {
-                    let unfinished = outcome.cut_short.is_some() && !outcome.status.is_solved();
-                    let worse =
-                        |best: &Outcome| !outcome.converged && (best.converged || unfinished);
+                    let failed = !outcome.status.is_solved();
+                    let worse = |best: &Outcome| {
+                        !outcome.converged
+                            && (best.converged
+                                || failed && (outcome.cut_short.is_some() || best.is_accurate()))
+                    };
                     return Ok(match best.take_if(|best| worse(best)) {
                         Some(best) => best.preferred_to(outcome),
                         None => outcome,
@@ -237,35 +228,6 @@ impl<O: Ocp> Refinement<'_, O> {
             && later[later.len() - 1].objective > growth * first.objective.abs()
     }
 
-    /// Looks at a solution between its nodes.
-    fn assess(&self, solved: &Solved, conditioning: &Conditioning<'_, O>) -> Assessed {
-        let errors = midpoint_errors(self.ocp, &solved.trajectory);
-        let errors = conditioning.measured(errors, self.settings);
-        let max_error = errors.max();
-        let accurate = max_error <= self.settings.tolerance;
-        let outside = violations(self.ocp, &solved.trajectory);
-        let removable = self.removable(&outside);
-        let farthest = FAR.max(self.settings.bound_tolerance);
-        let undefined = max_error.is_nan() || outside.iter().flatten().any(|v| v.value.is_nan());
-        let verdict = if !solved.status.is_solved() {
-            Verdict::NotSolved(solved.status)
-        } else if undefined {
-            Verdict::Undefined
-        } else if !accurate {
-            Verdict::AboveTolerance
-        } else if removable.iter().flatten().all(|v| v.relative <= farthest) {
-            Verdict::Converged
-        } else {
-            Verdict::BoundExceeded
-        };
-        Assessed {
-            errors,
-            outside,
-            removable,
-            verdict,
-        }
-    }
-
     fn record(&self, solved: &Solved, assessed: &Assessed, began: Instant) -> Record {
         let mesh = &solved.trajectory.mesh;
         let outside = assessed.outside.iter().flatten();
@@ -277,6 +239,7 @@ impl<O: Ocp> Refinement<'_, O> {
             segment_errors: assessed.errors.by_segment.clone(),
             max_error: assessed.errors.max(),
             max_violation: largest(outside.map(|v| v.relative)),
+            removable_violation: assessed.left_to_remove,
             objective: solved.objective,
             nlp_iterations: solved.nlp_iterations,
             nlp_status: solved.status,
@@ -284,20 +247,6 @@ impl<O: Ocp> Refinement<'_, O> {
             time: began.elapsed(),
             decisions: Vec::new(),
         }
-    }
-
-    /// The violations that another mesh removes: those of states and of rows of the states. A row
-    /// of the controls overshoots where these switch, however narrow the segment.
-    fn removable(&self, outside: &[Vec<Violation>]) -> Vec<Vec<Violation>> {
-        let formulation = self.ocp.formulation();
-        let removable = |violation: &&Violation| match violation.what {
-            Bounded::State(_) => true,
-            Bounded::Path(p) => self.patterns.path_is_continuous(&formulation, p),
-        };
-        outside
-            .iter()
-            .map(|segment| segment.iter().filter(removable).copied().collect())
-            .collect()
     }
 
     /// The trajectory on a mesh with a breakpoint at every way-point; as it is where its mesh has

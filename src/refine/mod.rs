@@ -19,6 +19,7 @@
 //! | `start_check`, `failure` | what is asked before the first solve, and why there is none |
 //! | `record`, `verdict` | what a mesh iteration came to |
 
+mod assess;
 mod conditioning;
 mod curvature;
 mod driver;

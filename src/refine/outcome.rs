@@ -1,6 +1,6 @@
 //! Where a refinement ended.
 
-use super::{Record, Violation};
+use super::{Record, Verdict, Violation};
 use crate::nlp::{Iterate, Statistics, Status};
 use crate::transcription::Discretization;
 
@@ -36,7 +36,7 @@ pub struct Outcome {
     pub discarded: Vec<Record>,
     /// Whether the solve succeeded, the largest error is within the tolerance, and no bound is far
     /// exceeded between the nodes. Never where an error or a bounded row is NaN. The last record's
-    /// [`Verdict`](super::Verdict) says what is missing.
+    /// [`Verdict`] says what is missing.
     pub converged: bool,
     /// What ended the refinement before it had converged, where that was neither the law nor a failed
     /// solve.
@@ -55,6 +55,13 @@ impl Outcome {
         self.records
             .last()
             .map_or(f64::INFINITY, |record| record.max_error)
+    }
+
+    /// Whether its error is within the tolerance, bounds between the nodes aside.
+    pub(super) fn is_accurate(&self) -> bool {
+        self.records.last().is_some_and(|record| {
+            record.verdict.is_converged() || record.verdict == Verdict::BoundExceeded
+        })
     }
 
     /// This outcome, `later` being what came of the meshes after it.

@@ -35,6 +35,10 @@ pub struct Record {
     /// Largest part of its size by which a bound is exceeded between the nodes; 0 where none is,
     /// infinite where the bounded quantity is NaN.
     pub max_violation: f64,
+    /// What is left for another mesh to bring down: the part of its size by which a state or a row of
+    /// the states is outside, or the part of the duration for which a control or a row of the
+    /// controls overshoots by more than a tenth of its size in one segment.
+    pub removable_violation: f64,
     /// Objective (25).
     pub objective: f64,
     /// Iterations of the solver.

@@ -10,13 +10,17 @@ pub enum Verdict {
     /// The programme is solved, the largest error (28) is within the tolerance, and no bound is far
     /// exceeded between the nodes.
     Converged,
+    /// The same, but for an instant (less than a thousandth of the duration) a control, or a row of
+    /// the controls, exceeds a bound by more than a tenth of its size between the nodes.
+    Overshoots,
     /// The solver ended without a solution.
     NotSolved(Status),
     /// The rates or a bounded path row are not a number somewhere between the nodes.
     Undefined,
     /// The largest error (28) is above the tolerance.
     AboveTolerance,
-    /// A bound is far exceeded between the nodes.
+    /// A bound is far exceeded between the nodes: by a twentieth of its size or, where controls may
+    /// jump, by a tenth for longer than an instant.
     BoundExceeded,
     /// Cost and error grow as the mesh gets finer: what solves the programme on each mesh is no
     /// approximation of a motion.
@@ -24,9 +28,9 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Whether all conditions are met.
+    /// Whether all conditions are met, an overshoot for an instant allowed.
     pub fn is_converged(self) -> bool {
-        self == Self::Converged
+        matches!(self, Self::Converged | Self::Overshoots)
     }
 }
 
@@ -34,6 +38,9 @@ impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Converged => "converged",
+            Self::Overshoots => {
+                "converged; controls overshoot a limit for an instant between the points of the mesh"
+            }
             Self::NotSolved(status) => return write!(f, "{}", status.describe()),
             Self::Undefined => {
                 "the problem's functions are not a number somewhere between the points of the mesh"

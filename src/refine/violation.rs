@@ -2,7 +2,7 @@
 //!
 //! Derived in docs/algorithms.md#bounds-between-the-nodes.
 
-use crate::ocp::{Interval, Ocp, Point, Quantity};
+use crate::ocp::{Formulation, Ocp, Point, Quantity};
 use crate::transcription::Discretization;
 
 /// What is bounded.
@@ -11,6 +11,8 @@ use crate::transcription::Discretization;
 pub enum Bounded {
     /// A state along the path.
     State(usize),
+    /// A control along the path.
+    Control(usize),
     /// A path row.
     Path(usize),
 }
@@ -33,70 +35,70 @@ pub struct Violation {
     /// The same as a part of the quantity's size, which is that of its bounds unless it has one
     /// of its own; of one where the bounds are zero.
     pub relative: f64,
+    /// For how long in this segment it is outside by more than a tenth of that size, s.
+    pub lasts: f64,
 }
+
+/// Part of a quantity's size above which the time outside is counted.
+pub(super) const OVERSHOOT: f64 = 0.1;
 
 /// Places looked at between two neighbouring nodes.
 const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
 
-/// The farthest that each bounded state and path row is outside in each segment, segments ×
-/// those that are outside at all.
+/// The farthest that each bounded state, control and path row is outside in each segment,
+/// segments × those that are outside at all.
 ///
 /// The nodes themselves are left out, the programme holds the bounds there; t_f, which is no
 /// collocation point, is looked at as well.
 pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Violation>> {
     let formulation = ocp.formulation();
     let (n, m) = formulation.widths();
-    let limited = |bounds: &Interval| !bounds.is_free();
-    let path_rows = formulation.path.iter().any(|row| limited(&row.bounds));
-    let quantities: Vec<(Bounded, &Quantity)> = formulation
-        .states
-        .iter()
-        .enumerate()
-        .map(|(i, state)| (Bounded::State(i), state))
-        .chain(
-            formulation
-                .path
-                .iter()
-                .enumerate()
-                .map(|(p, row)| (Bounded::Path(p), row)),
-        )
-        .filter(|(_, quantity)| limited(&quantity.bounds))
-        .collect();
+    let quantities = bounded(&formulation);
     let mesh = &trajectory.mesh;
     if quantities.is_empty() {
         return vec![Vec::new(); mesh.segments()];
     }
+    let path_rows = quantities
+        .iter()
+        .any(|(what, _)| matches!(what, Bounded::Path(_)));
     let mut scratch = ocp.scratch::<f64>();
     let (mut x, mut rates, mut u) = (vec![0.0; n], vec![0.0; n], vec![0.0; m]);
     let mut path = vec![0.0; formulation.path.len()];
     (0..mesh.segments())
         .map(|segment| {
             let mut worst: Vec<Option<Violation>> = vec![None; quantities.len()];
-            for tau in places(mesh.rule(segment).nodes(), segment + 1 == mesh.segments()) {
+            let half = 0.5 * mesh.width(segment) * trajectory.duration;
+            let nodes = mesh.rule(segment).nodes();
+            for (tau, stands_for) in places(nodes, segment + 1 == mesh.segments()) {
                 trajectory.state_in(segment, tau, &mut x);
+                trajectory.control_in(segment, tau, &mut u);
                 let t = mesh.fraction(segment, tau) * trajectory.duration;
                 if path_rows {
-                    trajectory.control_in(segment, tau, &mut u);
                     let point = Point { x: &x, u: &u, t };
                     ocp.continuous(point, &mut scratch, &mut rates, &mut path);
                 }
                 for (worst, &(what, quantity)) in worst.iter_mut().zip(&quantities) {
                     let value = match what {
                         Bounded::State(i) => x[i],
+                        Bounded::Control(j) => u[j],
                         Bounded::Path(p) => path[p],
                     };
                     let excess = quantity.bounds.violation(value);
-                    if excess > worst.map_or(0.0, |w| w.excess) {
-                        *worst = Some(Violation {
-                            what,
-                            segment,
-                            tau,
-                            t,
-                            value,
-                            excess,
-                            relative: excess / size(quantity),
-                        });
+                    if excess <= 0.0 {
+                        continue;
                     }
+                    let relative = excess / size(quantity);
+                    let here = Violation {
+                        what,
+                        segment,
+                        tau,
+                        t,
+                        value,
+                        excess,
+                        relative,
+                        lasts: f64::from(relative > OVERSHOOT) * stands_for * half,
+                    };
+                    *worst = Some(worst.map_or(here, |worst| worst.and(here)));
                 }
             }
             worst.into_iter().flatten().collect()
@@ -104,7 +106,34 @@ pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Viola
         .collect()
 }
 
-/// The worst violation of every bound that is exceeded by more than `tolerance` of its size.
+impl Violation {
+    /// The farther of the two, with the time of both.
+    fn and(self, other: Self) -> Self {
+        let lasts = self.lasts + other.lasts;
+        let farther = if other.excess > self.excess {
+            other
+        } else {
+            self
+        };
+        Self { lasts, ..farther }
+    }
+}
+
+/// States, controls and path rows that have a bound.
+fn bounded(formulation: &Formulation) -> Vec<(Bounded, &Quantity)> {
+    let states = formulation.states.iter().enumerate();
+    let controls = formulation.controls.iter().enumerate();
+    let path = formulation.path.iter().enumerate();
+    states
+        .map(|(i, state)| (Bounded::State(i), state))
+        .chain(controls.map(|(j, control)| (Bounded::Control(j), control)))
+        .chain(path.map(|(p, row)| (Bounded::Path(p), row)))
+        .filter(|(_, quantity)| !quantity.bounds.is_free())
+        .collect()
+}
+
+/// The worst violation of every bound that is exceeded by more than `tolerance` of its size, with
+/// the time of all segments.
 pub(super) fn worst_of_each(by_segment: &[Vec<Violation>], tolerance: f64) -> Vec<Violation> {
     let mut found: Vec<Violation> = Vec::new();
     for violation in by_segment.iter().flatten() {
@@ -112,19 +141,22 @@ pub(super) fn worst_of_each(by_segment: &[Vec<Violation>], tolerance: f64) -> Ve
             continue;
         }
         match found.iter_mut().find(|known| known.what == violation.what) {
-            Some(known) if known.excess < violation.excess => *known = *violation,
-            Some(_) => {}
+            Some(known) => *known = known.and(*violation),
             None => found.push(*violation),
         }
     }
     found
 }
 
-fn places(nodes: &[f64], last: bool) -> Vec<f64> {
-    let between = |pair: &[f64]| BETWEEN.map(|share| pair[0] + share * (pair[1] - pair[0]));
-    let mut places: Vec<f64> = nodes.windows(2).flat_map(between).collect();
+/// τ of each place, and the width in τ it stands for.
+fn places(nodes: &[f64], last: bool) -> Vec<(f64, f64)> {
+    let between = |pair: &[f64]| {
+        let gap = pair[1] - pair[0];
+        BETWEEN.map(|share| (pair[0] + share * gap, gap / BETWEEN.len() as f64))
+    };
+    let mut places: Vec<(f64, f64)> = nodes.windows(2).flat_map(between).collect();
     if last {
-        places.push(1.0);
+        places.push((1.0, 0.0));
     }
     places
 }

@@ -112,12 +112,17 @@ pub fn verdict(problem: &Problem, plan: &Plan) -> String {
 
 fn status(plan: &Plan) -> String {
     match (plan.status, &plan.diagnosis) {
-        (Status::Solved, _) => "solved".into(),
+        (Status::Solved, _) => match plan.iterations.last().map(|last| last.verdict) {
+            Some(Verdict::Overshoots) => {
+                "solved; controls overshoot a limit for an instant, see the warnings".into()
+            }
+            _ => "solved".into(),
+        },
         (Status::Infeasible, Some(diagnosis)) => format!("infeasible: {}", diagnosis.summary),
         (Status::Infeasible, None) => "infeasible".into(),
         (Status::NotConverged, _) => {
             let why = match plan.iterations.last().map(|last| last.verdict) {
-                Some(Verdict::Converged) => "re-integration does not confirm it".into(),
+                Some(found) if found.is_converged() => "re-integration does not confirm it".into(),
                 Some(other) => other.to_string(),
                 None => "the motion is not as accurate as it should be".into(),
             };

@@ -231,9 +231,9 @@ fn double_integrator_is_exact_on_one_segment() {
     assert!(outcome.max_error() < 1e-10);
 }
 
-#[test]
-fn minimum_time_double_integrator_takes_two_seconds() {
-    let problem = Integrator {
+/// Rest to rest over a distance of one in the least time; the control switches halfway, at 1 s.
+fn minimum_time() -> Integrator {
+    Integrator {
         initial: [0.0, 0.0],
         terminal: [1.0, 0.0],
         position: Interval::FREE,
@@ -242,13 +242,53 @@ fn minimum_time_double_integrator_takes_two_seconds() {
         duration: Interval::new(0.5, 10.0),
         time_weight: 1.0,
         passed: vec![],
-    };
+    }
+}
+
+#[test]
+fn minimum_time_double_integrator_takes_two_seconds() {
     // A breakpoint at the switch makes it exact.
-    let outcome = solve(&problem, &refined(2, 4, 1e-7, 1));
+    let outcome = solve(&minimum_time(), &refined(2, 4, 1e-7, 1));
     assert!(
         (outcome.objective - 2.0).abs() < 1e-6,
         "t_f = {}",
         outcome.objective
     );
     assert!((outcome.trajectory.duration - outcome.objective).abs() < 1e-12);
+    assert_eq!(outcome.records[0].verdict, Verdict::Converged);
+}
+
+#[test]
+fn a_control_that_overshoots_its_bound_between_the_points_is_seen() {
+    // The switch stands inside the middle one of three segments, and the error estimate is content
+    // with anything.
+    let coarse = solve(&minimum_time(), &refined(3, 5, 1e3, 1));
+    let [found] = &coarse.violations[..] else {
+        panic!("{:?}", coarse.violations);
+    };
+    assert_eq!(found.what, Bounded::Control(0));
+    assert!(found.relative > 0.1 && found.lasts > 1e-3 * 2.0);
+    let (mut x, mut u) = ([0.0; 2], [0.0]);
+    let fraction = found.t / coarse.trajectory.duration;
+    coarse.trajectory.at_fraction(fraction, &mut x, &mut u);
+    assert!((u[0] - found.value).abs() < 1e-12);
+    assert!(!coarse.converged);
+    assert_eq!(coarse.records[0].verdict, Verdict::BoundExceeded);
+
+    let fine = solve(&minimum_time(), &refined(3, 5, 1e3, 20));
+    assert!(fine.converged && fine.records.len() > 1);
+    let outside = (0..=100_000).filter(|&k| {
+        fine.trajectory
+            .at_fraction(f64::from(k) / 100_000.0, &mut x, &mut u);
+        u[0].abs() > 1.1
+    });
+    // One segment holds the switch, and it may be outside for a thousandth of the duration.
+    assert!(outside.count() < 150);
+    match &fine.violations[..] {
+        [] => assert_eq!(fine.records.last().unwrap().verdict, Verdict::Converged),
+        [left] if left.relative > 0.1 => {
+            assert_eq!(fine.records.last().unwrap().verdict, Verdict::Overshoots);
+        }
+        _ => {}
+    }
 }

@@ -14,6 +14,7 @@ pub(super) fn warnings<Sp: Space>(
     let sentence = |violation: &Violation| {
         let row = system.bound(match violation.what {
             Bounded::State(i) => Limited::State(i),
+            Bounded::Control(j) => Limited::Control(j),
             Bounded::Path(p) => Limited::Path(p),
         });
         if violation.value.is_nan() {
@@ -26,15 +27,20 @@ pub(super) fn warnings<Sp: Space>(
             .measured_bounds()
             .violation(row.measured(violation.value));
         let helps = match row.id.limit {
-            LimitId::Torque => {
-                "a torque that switches overshoots there on any mesh; a lower limit leaves room"
+            LimitId::Torque | LimitId::Control => {
+                "what switches overshoots there on any mesh, for a shorter time on a finer one; a \
+                 lower limit leaves room"
             }
             _ => "more mesh.segments, or mesh.max_iterations, bring it down",
         };
         let (factor, unit) = row.unit.readable();
+        let lasts = match violation.lasts {
+            0.0 => String::new(),
+            lasts => format!(", by more than a tenth for {lasts:.1e} s in all"),
+        };
         format!(
-            "{} ({}) is exceeded by {:.2e}{unit} between the points of the mesh, at {:.3} s; \
-             {helps}",
+            "{} ({}) is exceeded by {:.2e}{unit} between the points of the mesh, at {:.3} s\
+             {lasts}; {helps}",
             row.id.limit,
             row.quantity.name,
             excess * factor,

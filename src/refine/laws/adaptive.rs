@@ -61,7 +61,7 @@ fn has_stalled(records: &[Record], tolerance: f64) -> bool {
     let accurate = |record: &Record| record.max_error <= tolerance;
     let by_bounds = records.iter().rev().take(RECENT).all(accurate);
     let size = |record: &Record| match by_bounds {
-        true => record.max_violation,
+        true => record.removable_violation,
         false => record.max_error,
     };
     let best = |records: &[Record]| records.iter().map(size).fold(f64::INFINITY, f64::min);
@@ -216,6 +216,7 @@ mod tests {
             value: 0.0,
             excess: relative,
             relative,
+            lasts: 0.0,
         });
         let settings = settings();
         Law(&settings).refine(&Assessment {

@@ -1,0 +1,122 @@
+//! What the solution on one mesh is worth: its errors, its bounds between the nodes, its verdict.
+
+use super::conditioning::Conditioning;
+use super::mesh_solve::Solved;
+use super::violation::OVERSHOOT;
+use super::{Bounded, Errors, Settings, Verdict, Violation, midpoint_errors, violations};
+use crate::largest::largest;
+use crate::ocp::Ocp;
+use crate::transcription::Patterns;
+
+/// Part of its size by which a bound of a state or a row of the states may be exceeded between the
+/// nodes of a mesh that counts.
+const FAR: f64 = 0.05;
+/// Part of the duration for which a control, or a row of the controls, may overshoot its bound by
+/// more than [`OVERSHOOT`] in one segment.
+const SHORT: f64 = 1e-3;
+
+/// What a solution is worth.
+pub(super) struct Assessed {
+    pub errors: Errors,
+    /// Bounds exceeded between the nodes, by segments.
+    pub outside: Vec<Vec<Violation>>,
+    /// Those of `outside` that another mesh removes or makes shorter.
+    pub removable: Vec<Vec<Violation>>,
+    /// See [`Record::removable_violation`](super::Record::removable_violation).
+    pub left_to_remove: f64,
+    pub verdict: Verdict,
+}
+
+/// Judges the solutions of one problem.
+pub(super) struct Assessor<'a, O: Ocp> {
+    ocp: &'a O,
+    settings: &'a Settings,
+    /// Whether each path row depends on a control.
+    jumping_rows: Vec<bool>,
+}
+
+impl<'a, O: Ocp> Assessor<'a, O> {
+    pub fn new(ocp: &'a O, patterns: &Patterns, settings: &'a Settings) -> Self {
+        let formulation = ocp.formulation();
+        let jumps = |p| !patterns.path_is_continuous(&formulation, p);
+        Self {
+            ocp,
+            settings,
+            jumping_rows: (0..formulation.path.len()).map(jumps).collect(),
+        }
+    }
+
+    /// Looks at a solution between its nodes.
+    pub fn assess(&self, solved: &Solved, conditioning: &Conditioning<'_, O>) -> Assessed {
+        let errors = midpoint_errors(self.ocp, &solved.trajectory);
+        let errors = conditioning.measured(errors, self.settings);
+        let duration = solved.trajectory.duration;
+        let outside = violations(self.ocp, &solved.trajectory);
+        let removable: Vec<Vec<Violation>> = outside
+            .iter()
+            .map(|segment| {
+                let removable = |violation: &&Violation| self.is_removable(violation, duration);
+                segment.iter().filter(removable).copied().collect()
+            })
+            .collect();
+        let left_to_remove = |violation: &Violation| match self.jumps(violation.what) {
+            true => violation.lasts / duration,
+            false => violation.relative,
+        };
+        Assessed {
+            left_to_remove: largest(removable.iter().flatten().map(left_to_remove)),
+            verdict: self.verdict(solved, errors.max(), &outside, &removable),
+            errors,
+            outside,
+            removable,
+        }
+    }
+
+    fn verdict(
+        &self,
+        solved: &Solved,
+        max_error: f64,
+        outside: &[Vec<Violation>],
+        removable: &[Vec<Violation>],
+    ) -> Verdict {
+        let undefined = max_error.is_nan() || outside.iter().flatten().any(|v| v.value.is_nan());
+        let any_far = |found: &[Vec<Violation>]| found.iter().flatten().any(|v| self.is_far(v));
+        if !solved.status.is_solved() {
+            Verdict::NotSolved(solved.status)
+        } else if undefined {
+            Verdict::Undefined
+        } else if max_error > self.settings.tolerance {
+            Verdict::AboveTolerance
+        } else if any_far(removable) {
+            Verdict::BoundExceeded
+        } else if any_far(outside) {
+            Verdict::Overshoots
+        } else {
+            Verdict::Converged
+        }
+    }
+
+    fn is_far(&self, violation: &Violation) -> bool {
+        let most = match self.jumps(violation.what) {
+            true => OVERSHOOT,
+            false => FAR,
+        };
+        violation.relative > most.max(self.settings.bound_tolerance)
+    }
+
+    /// Where a control switches, polynomials overshoot on any mesh, for a time that falls with the
+    /// segment's width.
+    fn is_removable(&self, violation: &Violation, duration: f64) -> bool {
+        let lasts = violation.lasts > SHORT * duration;
+        !self.jumps(violation.what) || lasts && self.is_far(violation)
+    }
+
+    /// Whether a bounded quantity is a control or depends on one.
+    fn jumps(&self, what: Bounded) -> bool {
+        match what {
+            Bounded::State(_) => false,
+            Bounded::Control(_) => true,
+            Bounded::Path(p) => self.jumping_rows[p],
+        }
+    }
+}
