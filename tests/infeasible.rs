@@ -5,9 +5,9 @@ mod problems;
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::ocp::Interval;
+use ffsm_ipopt::planner::floor::{Certainty, Connection, Grid};
 use ffsm_ipopt::planner::{Status, plan};
 use ffsm_ipopt::problem::Problem;
-use ffsm_ipopt::reproduction::bounds::{Connection, Grid};
 use std::f64::consts::PI;
 use std::path::Path;
 use std::time::Duration;
@@ -36,14 +36,20 @@ fn the_published_case_names_the_base_attitude_and_the_smallest_bound() {
         .upper
         .max(end.smallest_bound.upper)
         .to_degrees();
-    let grid = Grid::new(&problems::published(), 61).expect("a planar arm of two joints");
-    let bound = grid.smallest_bound().to_degrees();
+    let grid = Grid::new(&problems::published(), 1.28e6).expect("a planar arm of two joints");
+    let floor = along.floor.expect("a floor").to_degrees();
+    assert!((25.0..smallest).contains(&floor), "{floor}°");
+    let bound = grid
+        .smallest_bound([0.0, 0.5 * PI], 5e-4, Certainty::Estimate)
+        .to_degrees();
     assert!(
         (bound - 28.5).abs() < 0.3,
         "dynamic programming finds {bound}°"
     );
     // Without a bound along the path the published one at t_f is just out of reach.
-    let [_, nearest] = grid.reachable(f64::INFINITY).map(f64::to_degrees);
+    let [_, nearest] = grid
+        .reachable(f64::INFINITY, Certainty::Estimate)
+        .map(f64::to_degrees);
     assert!((-17.0..-14.0).contains(&nearest), "{nearest}°");
     assert!(
         smallest > bound - 0.2,
@@ -147,6 +153,62 @@ fn a_limit_on_the_rotation_angle_is_named_in_degrees() {
 }
 
 #[test]
+fn no_motion_of_two_joints_is_outside_what_the_grid_bounds() {
+    let problem = problems::published();
+    let grid = Grid::new(&problem, 2e5).expect("a planar arm of two joints");
+    let connection = Connection::new(&problem.robot).unwrap();
+    let [low, high] = grid.reachable(f64::INFINITY, Certainty::Bound);
+    let inner = grid.reachable(f64::INFINITY, Certainty::Estimate);
+    assert!(
+        low < inner[0] && inner[1] < high,
+        "{low}, {high}, {inner:?}"
+    );
+    let task = &problem.task;
+    let rates = [0, 1].map(|i| problem.limits.joint_velocity[i].upper);
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut tried = 0;
+    while tried < 60 {
+        // Straight legs at full speed through points within the joint limits, as long as time lasts.
+        let mut points = vec![[0, 1].map(|i| task.initial_joints[i])];
+        for _ in 0..random.usize(..12) {
+            let within = |i: usize| {
+                let bounds = problem.limits.joint_position[i];
+                bounds.lower + random.f64() * (bounds.upper - bounds.lower)
+            };
+            points.push([0, 1].map(within));
+        }
+        points.push([0, 1].map(|i| task.final_joints[i]));
+        let spent: f64 = points
+            .windows(2)
+            .map(|leg| {
+                let time = |i: usize| (leg[1][i] - leg[0][i]).abs() / rates[i];
+                time(0).max(time(1))
+            })
+            .sum();
+        if spent > task.duration.upper {
+            continue;
+        }
+        tried += 1;
+        let (mut eta, mut largest) = (0.0_f64, 0.0_f64);
+        for leg in points.windows(2) {
+            let moved = [0, 1].map(|i| (leg[1][i] - leg[0][i]) / 100.0);
+            for k in 0..100 {
+                let middle = [0, 1].map(|i| leg[0][i] + (f64::from(k) + 0.5) * moved[i]);
+                let [a, b] = connection.coefficients(middle);
+                eta += a * moved[0] + b * moved[1];
+                largest = largest.max(eta.abs());
+            }
+        }
+        assert!((low..=high).contains(&eta), "{eta} by {points:?}");
+        let [least, most] = grid.reachable(largest + 1e-4, Certainty::Bound);
+        assert!(
+            least <= eta + 1e-4 && eta - 1e-4 <= most,
+            "{eta} within {largest} by {points:?}"
+        );
+    }
+}
+
+#[test]
 fn the_curvature_is_that_of_small_loops() {
     let connection = Connection::new(&problems::two_link()).unwrap();
     // Turn of the base along a straight leg, Simpson's rule.
@@ -223,6 +285,9 @@ fn the_bound_of_one_joint_is_what_momentum_asks_and_works() {
             "{}",
             diagnosis.summary
         );
+        // Any path passes all angles in between, so that what works is the least that can.
+        let floor = limit.floor.expect("a floor");
+        assert!(floor <= bound && floor > 0.999 * bound, "{floor}, {bound}");
         let again = plan(&one_joint(key, 1.01 * bound)).unwrap();
         assert_eq!(again.status, Status::Solved, "{key}: {:?}", again.diagnosis);
     }

@@ -4,6 +4,7 @@ mod collocation;
 mod dispatch;
 mod error;
 mod event;
+pub mod floor;
 mod joint_space;
 mod method;
 mod plan;

@@ -64,6 +64,9 @@ pub struct LimitFinding {
     pub excess: f64,
     /// The smallest bound that was found to work, all other limits kept.
     pub smallest_bound: Interval,
+    /// The largest bound of which it is known that no smaller one can work, whatever the other
+    /// limits, as its upper end; `None` where none above the bound as given is known.
+    pub floor: Option<f64>,
 }
 
 /// How many starts a search was begun from.

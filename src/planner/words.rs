@@ -7,18 +7,32 @@ use crate::system::Component;
 
 /// One sentence about what cannot hold, by a motion whose refinement `converged` or did not.
 pub(super) fn cannot_hold(limits: &[LimitFinding], converged: bool) -> String {
-    let verb = if converged {
-        "cannot hold; the smallest bound that was found to work is"
-    } else {
-        "was not found to hold; no bound that works is known, on a coarse mesh it would be"
-    };
-    sentence(limits, verb)
+    sentence(limits, |floor, works| match (floor, converged) {
+        (Some(floor), true) => {
+            format!("cannot hold; no bound below {floor} can work, {works} was found to")
+        }
+        (None, true) => {
+            format!("cannot hold; the smallest bound that was found to work is {works}")
+        }
+        (Some(floor), false) => format!(
+            "cannot hold; no bound below {floor} can work, none that works is known, on a coarse \
+             mesh it would be {works}"
+        ),
+        (None, false) => format!(
+            "was not found to hold; no bound that works is known, on a coarse mesh it would be \
+             {works}"
+        ),
+    })
 }
 
-/// One sentence that says of every limit, by `verb`, what stands to the bound that would hold;
-/// limits of the same bound on the same component share their part of it.
-pub(super) fn sentence(limits: &[LimitFinding], verb: &str) -> String {
-    let mut parts: Vec<(Vec<String>, &LimitFinding)> = Vec::new();
+/// One sentence that says of every limit what `said` makes of the bound below which none can work,
+/// where it is known, and of the one that would hold; limits of the same bound on the same component
+/// share their part of it.
+pub(super) fn sentence(
+    limits: &[LimitFinding],
+    said: impl Fn(Option<String>, String) -> String,
+) -> String {
+    let mut parts: Vec<(Vec<String>, &LimitFinding, Option<f64>)> = Vec::new();
     for finding in limits {
         let limit = format!("{} = {}", finding.limit, shown(finding, &finding.bound));
         let same = |other: &LimitFinding| {
@@ -26,18 +40,19 @@ pub(super) fn sentence(limits: &[LimitFinding], verb: &str) -> String {
                 && other.bound == finding.bound
                 && shown(other, &other.smallest_bound) == shown(finding, &finding.smallest_bound)
         };
-        match parts.iter_mut().find(|(_, other)| same(other)) {
-            Some((keys, _)) => keys.push(limit),
-            None => parts.push((vec![limit], finding)),
+        match parts.iter_mut().find(|(_, other, _)| same(other)) {
+            Some((keys, _, floor)) => {
+                keys.push(limit);
+                // Together they have the higher floor.
+                *floor = floor.iter().copied().chain(finding.floor).reduce(f64::max);
+            }
+            None => parts.push((vec![limit], finding, finding.floor)),
         }
     }
-    let part = |(keys, finding): &(Vec<String>, &LimitFinding)| {
-        format!(
-            "{} ({}) {verb} {}",
-            keys.join(" and "),
-            finding.name,
-            shown(finding, &finding.smallest_bound)
-        )
+    let part = |(keys, finding, floor): &(Vec<String>, &LimitFinding, Option<f64>)| {
+        let floor = floor.map(|floor| shown(finding, &Interval::symmetric(floor)));
+        let said = said(floor, shown(finding, &finding.smallest_bound));
+        format!("{} ({}) {said}", keys.join(" and "), finding.name)
     };
     parts.iter().map(part).collect::<Vec<_>>().join("; ")
 }

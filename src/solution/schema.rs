@@ -239,6 +239,9 @@ pub struct LimitFinding {
     pub excess: f64,
     /// The smallest bound that was found to work.
     pub smallest_bound: [Option<f64>; 2],
+    /// The bound below which none can work; absent where none above `bound` is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<f64>,
 }
 
 /// Where the time went, s.

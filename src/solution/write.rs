@@ -139,6 +139,7 @@ fn diagnosis(found: &planner::Diagnosis) -> Diagnosis {
         unit: limit.unit.symbol().into(),
         excess: limit.excess,
         smallest_bound: bounds(&limit.smallest_bound),
+        floor: limit.floor,
     };
     Diagnosis {
         summary: found.summary.clone(),

@@ -28,19 +28,20 @@ pub(super) fn warnings<Sp: Space>(
             .violation(row.measured(violation.value));
         let helps = match row.id.limit {
             LimitId::Torque | LimitId::Control => {
-                "what switches overshoots there on any mesh, for a shorter time on a finer one; a \
-                 lower limit leaves room"
+                let lasts = match violation.lasts {
+                    0.0 => String::new(),
+                    lasts => format!(", by more than a tenth for {lasts:.1e} s in all"),
+                };
+                format!(
+                    "{lasts}; what switches overshoots there on any mesh, for a shorter time on a \
+                     finer one; a lower limit leaves room"
+                )
             }
-            _ => "more mesh.segments, or mesh.max_iterations, bring it down",
+            _ => "; more mesh.segments, or mesh.max_iterations, bring it down".into(),
         };
         let (factor, unit) = row.unit.readable();
-        let lasts = match violation.lasts {
-            0.0 => String::new(),
-            lasts => format!(", by more than a tenth for {lasts:.1e} s in all"),
-        };
         format!(
-            "{} ({}) is exceeded by {:.2e}{unit} between the points of the mesh, at {:.3} s\
-             {lasts}; {helps}",
+            "{} ({}) is exceeded by {:.2e}{unit} between the points of the mesh, at {:.3} s{helps}",
             row.id.limit,
             row.quantity.name,
             excess * factor,

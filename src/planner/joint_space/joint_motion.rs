@@ -103,7 +103,7 @@ pub(super) fn assemble<Sp: Space>(
     );
     let diagnosis = (status == Status::Infeasible).then(|| Diagnosis {
         converged: true,
-        summary: sentence(&limits, &verb),
+        summary: sentence(&limits, |_, works| format!("{verb} {works}")),
         limits,
         starts: Starts {
             tried: 1,
@@ -154,6 +154,7 @@ pub(super) fn goal_missed(problem: &Problem, plan: &mut Plan, there: f64, why: S
             bound: Interval::fixed(goal),
             excess: (q - goal).abs(),
             smallest_bound: Interval::new(q.min(goal), q.max(goal)),
+            floor: None,
         })
         .collect();
     if missed.is_empty() {

@@ -4,12 +4,8 @@
 //! base; dynamic programming on a grid of joint angles says what no motion can do better than;
 //! optimal control from many starts says what a motion does reach.
 
-mod connection;
-mod grid;
 mod reach;
 mod report;
 
-pub use connection::{Connection, CurvatureBound};
-pub use grid::Grid;
 pub use reach::{Reached, largest_final_attitude};
 pub use report::{Bounds, bounded, bounds, markdown};

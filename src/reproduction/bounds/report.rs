@@ -1,16 +1,20 @@
 //! The evidence together, and in words.
 
-use super::{Connection, CurvatureBound, Grid, Reached, largest_final_attitude};
+use super::{Reached, largest_final_attitude};
 use crate::config::ProblemFile;
 use crate::ocp::Interval;
+use crate::planner::floor::{Certainty, Connection, CurvatureBound, Grid};
 use crate::planner::{Plan, Start};
 use crate::reproduction::figures::{Case, Extremes};
 use crate::reproduction::{ReproductionError, Session};
 use crate::system::straight_line;
 use serde::Serialize;
 
-/// Angles of the dynamic programme's grid, 3° apart over the paper's joint limits.
-const ANGLES: usize = 61;
+/// Angles and steps of the dynamic programme together, angles 3° apart over the paper's joint limits.
+const WORK: f64 = 1.28e6;
+/// Range of the smallest bound, and its accuracy, rad.
+const SOUGHT: [f64; 2] = [0.0, std::f64::consts::FRAC_PI_2];
+const ACCURACY: f64 = 5e-4;
 /// Cells of the grid the curvature is integrated on.
 const CELLS: usize = 240;
 
@@ -114,9 +118,9 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
     let curvature = Connection::new(&problem.robot)
         .map(|connection| connection.over(corner(0), corner(1), CELLS));
     session.begin("dynamic programme over the joint angles")?;
-    let grid = Grid::new(problem, ANGLES);
+    let grid = Grid::new(problem, WORK);
     let (nearest, smallest) = grid.map_or((f64::NAN, f64::NAN), |grid| {
-        let [low, high] = grid.reachable(f64::INFINITY);
+        let [low, high] = grid.reachable(f64::INFINITY, Certainty::Estimate);
         let nearest = if low <= 0.0 && high >= 0.0 {
             0.0
         } else if low.abs() < high.abs() {
@@ -124,7 +128,10 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
         } else {
             high
         };
-        (nearest, grid.smallest_bound())
+        (
+            nearest,
+            grid.smallest_bound(SOUGHT, ACCURACY, Certainty::Estimate),
+        )
     });
     let reached = largest_final_attitude(session, problem)?;
     let curvature = curvature.unwrap_or(CurvatureBound {

@@ -45,6 +45,7 @@ pub(in crate::planner) fn findings<Sp: Space>(
                 bound,
                 excess,
                 smallest_bound: widened(bound, range),
+                floor: None,
             };
             // One limit may hold at the points and again at t_f, which is none.
             let same = |known: &&mut LimitFinding| {
@@ -140,6 +141,7 @@ fn rotations<Sp: Space>(
         bound: Interval::new(0.0, bound),
         excess: reached - bound,
         smallest_bound: Interval::new(0.0, reached),
+        floor: None,
     })
     .collect()
 }

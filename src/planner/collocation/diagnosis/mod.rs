@@ -10,7 +10,7 @@ pub(in crate::planner) use findings::findings;
 use crate::dynamics::space::Space;
 use crate::nlp::{Control, Deadline, Statistics};
 use crate::planner::words::cannot_hold;
-use crate::planner::{Diagnosis, Event, PlanError};
+use crate::planner::{Diagnosis, Event, PlanError, floor};
 use crate::problem::Problem;
 use crate::system::{ElasticLimit, FreeFloating};
 use crate::transcription::Discretization;
@@ -82,7 +82,8 @@ pub(super) fn diagnose<Sp: Space>(
     if found.interrupted {
         return Ok(none(true));
     }
-    let limits = findings(problem, system, &found.limits, &trajectory);
+    let mut limits = findings(problem, system, &found.limits, &trajectory);
+    floor::add(problem, system, &mut limits);
     if limits.is_empty() {
         return Ok(Diagnosed {
             feasible: true,
