@@ -49,3 +49,20 @@ fn replan_many_runs() {
 fn time_in_process_runs() {
     time_in_process::main().unwrap();
 }
+
+#[test]
+fn the_shuttle_flies_the_same_in_any_unit_under_any_ceiling() {
+    // In units of 1e5 ft the first mesh of 50 points is followed by one of 300. A ceiling of 3e6 ft,
+    // where the density underflows, was "locally infeasible".
+    for (ceiling, unit) in [(1e6, 1e5), (3e6, 1.0)] {
+        let shuttle = shuttle_reentry::Shuttle { ceiling, unit };
+        let outcome = ffsm_ipopt::ocp::solve(&shuttle, &Default::default()).unwrap();
+        let range = -outcome.objective.to_degrees();
+        assert!(
+            outcome.converged && (range - 34.1412).abs() < 1e-4,
+            "{range}"
+        );
+        let points = outcome.trajectory.mesh.points();
+        assert!(points <= 2 * 300, "{points} points");
+    }
+}
