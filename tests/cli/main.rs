@@ -8,6 +8,7 @@ mod check;
 mod endings;
 mod first_steps;
 mod interruption;
+mod judged;
 mod output;
 mod paper;
 mod planners;
