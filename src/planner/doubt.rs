@@ -33,6 +33,8 @@ pub enum Doubt {
         drift: f64,
         /// How much a solved plan may, rad.
         room: f64,
+        /// By how much it drifts where the joints are led along their path, rad.
+        led: f64,
         /// Where small errors are magnified the most.
         conditioning: Option<Conditioning>,
     },
@@ -55,6 +57,17 @@ pub enum Doubt {
         found: f64,
         /// The range of the task, s.
         expected: [f64; 2],
+    },
+    /// A figure that follows from its states and controls is another.
+    Derived {
+        /// What a person calls the quantity.
+        name: &'static str,
+        /// When, s.
+        time: f64,
+        /// What was saved, in SI units.
+        found: f64,
+        /// What follows, in SI units.
+        expected: f64,
     },
     /// It exceeds limits at its nodes, or misses goals.
     Limits(Vec<LimitFinding>),
@@ -85,13 +98,19 @@ impl fmt::Display for Doubt {
             Self::BaseDrift {
                 drift,
                 room,
+                led,
                 conditioning,
             } => write!(
                 f,
                 "{LEAVES}: the base drifts by {}, more than the {} that a solved plan may; {}",
                 quantity(Unit::Radian, *drift),
                 quantity(Unit::Radian, *room),
-                magnified(conditioning.as_ref())
+                match led > room {
+                    true => "so it does where the joints are led along their path, and its motion \
+                             in the plan is not the one that they give it"
+                        .into(),
+                    false => magnified(conditioning.as_ref()),
+                }
             ),
             Self::Ends {
                 name,
@@ -109,9 +128,25 @@ impl fmt::Display for Doubt {
             Self::Duration {
                 found,
                 expected: [lower, upper],
+            } => match lower == upper {
+                true => write!(
+                    f,
+                    "the motion takes {found} s, and the task gives it {lower} s"
+                ),
+                false => write!(
+                    f,
+                    "the motion takes {found} s, and the task gives it {lower} to {upper} s"
+                ),
+            },
+            Self::Derived {
+                name,
+                time,
+                found,
+                expected,
             } => write!(
                 f,
-                "the motion takes {found} s, and the task gives it {lower} to {upper} s"
+                "at {} s the {name} was saved as {found:e}, and {expected:e} follows from the motion",
+                digits(*time, 3, 2)
             ),
             Self::Limits(limits) => f.write_str(&sentence(
                 limits,

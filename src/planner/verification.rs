@@ -156,6 +156,7 @@ fn drifted(problem: &Problem, plan: &Discretization, found: &Verification) -> Op
     too_far(found.max_base_attitude_drift, base_room).then(|| Doubt::BaseDrift {
         drift: found.max_base_attitude_drift,
         room: base_room,
+        led: found.replay_base_attitude_drift,
         conditioning: most_extreme(problem, plan),
     })
 }

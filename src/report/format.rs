@@ -16,6 +16,14 @@ pub fn centimetres(length: f64) -> String {
     format!("{} cm", digits(100.0 * length, 3, 2))
 }
 
+/// A difference that should be small: by a power of ten where it is.
+pub(super) fn gap(difference: f64) -> String {
+    match difference < 0.01 {
+        true => format!("{difference:.1e}"),
+        false => digits(difference, 2, 2),
+    }
+}
+
 /// A time in ms or s, three digits.
 pub fn seconds(time: Duration) -> String {
     let s = time.as_secs_f64();

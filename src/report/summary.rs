@@ -1,6 +1,6 @@
 //! What a roboticist wants to know, in degrees and centimetres.
 
-use super::format::{OF_RELAXED, centimetres, cost, degrees, list, rotation, seconds, shares};
+use super::format::{OF_RELAXED, centimetres, cost, degrees, gap, list, rotation, seconds, shares};
 use super::lines::Lines;
 use super::peaks::Peaks;
 use crate::digits::digits;
@@ -91,14 +91,14 @@ fn verification(lines: &mut Lines, robot: &Model, found: &Verification) {
         .iter()
         .all(|joint| joint.kind == JointKind::Revolute);
     let joints = if all_turn {
-        format!("{:.1e}°", found.max_joint_drift.to_degrees())
+        format!("{}°", gap(found.max_joint_drift.to_degrees()))
     } else {
-        format!("{:.1e} rad or m", found.max_joint_drift)
+        format!("{} rad or m", gap(found.max_joint_drift))
     };
     let base = format!(
-        "base within {:.1e}° and {:.1e} cm",
-        found.max_base_attitude_drift.to_degrees(),
-        100.0 * found.max_base_position_drift
+        "base within {}° and {} cm",
+        gap(found.max_base_attitude_drift.to_degrees()),
+        gap(100.0 * found.max_base_position_drift)
     );
     let momentum = format!("momentum below {:.1e} kg m²/s", found.max_angular_momentum);
     lines.add(

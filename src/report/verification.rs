@@ -1,6 +1,7 @@
 //! What `verify` leaves behind: `verification.json` and the lines a person reads.
 
 use super::Lines;
+use super::format::gap;
 use crate::dynamics::JointKind;
 use crate::planner::{Doubt, Judgement, Status};
 use crate::solution;
@@ -78,7 +79,7 @@ pub fn verification_summary(saved: &Saved, judgement: &Judgement, files: &[PathB
 
 /// What re-integration found; `joints_turn` where no joint slides.
 fn figures(lines: &mut Lines, found: &verify::Verification, joints_turn: bool) {
-    let small = |value: f64, unit: &str| format!("{value:.1e}{unit}");
+    let small = |value: f64, unit: &str| format!("{}{unit}", gap(value));
     let attitude = |angle: f64| small(angle.to_degrees(), "°");
     let length = |length: f64| small(100.0 * length, " cm");
     let joints = if joints_turn {

@@ -74,7 +74,7 @@ fn iteration(record: &Record) -> Iteration {
     }
 }
 
-fn trajectory(planned: &system::Trajectory) -> Trajectory {
+pub(super) fn trajectory(planned: &system::Trajectory) -> Trajectory {
     let system::Trajectory {
         t,
         attitude,

@@ -95,6 +95,11 @@ pub fn metrics_of(problem: &Problem, plan: &Discretization) -> Metrics {
     })
 }
 
+/// Everything a user wants to know at the nodes of a planned motion for `problem`.
+pub fn at_nodes(problem: &Problem, plan: &Discretization) -> Trajectory {
+    with_system!(&System::new(problem), system => super::trajectory::trajectory(system, plan))
+}
+
 /// Attitude and position of the base at the nodes of `plan`; all else stays empty.
 fn base_motion<Sp: Space>(system: &FreeFloating<Sp>, plan: &Discretization) -> Trajectory {
     let (tree, attitude) = (system.tree(), system.attitude());

@@ -41,7 +41,7 @@ pub use free_floating::FreeFloating;
 pub use goal_errors::{GoalError, goal_errors};
 pub use guess::through;
 pub use limits::ElasticLimit;
-pub use metrics::{base_angles, base_displacements, finely, metrics_of};
+pub use metrics::{at_nodes, base_angles, base_displacements, finely, metrics_of};
 pub use motion::{Metrics, Trajectory};
 pub use row_values::cost_terms;
 pub use rows::{BoundId, Component, Measure, Row};

@@ -6,6 +6,7 @@ mod program;
 mod attitude;
 mod check;
 mod endings;
+mod figures;
 mod first_steps;
 mod interruption;
 mod judged;

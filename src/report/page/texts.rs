@@ -4,7 +4,7 @@ use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::planner::Status;
 use crate::problem::Problem;
-use crate::report::format::{OF_RELAXED, centimetres, cost, degrees, shares, time};
+use crate::report::format::{OF_RELAXED, centimetres, cost, degrees, gap, shares, time};
 use crate::report::peaks::Peaks;
 use crate::solution::{CostTerm, Solution, Verification};
 use crate::system::{Trajectory, base_angles, base_displacements};
@@ -175,17 +175,17 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
 fn verification(found: &Verification, problem: &Problem) -> Vec<Fact> {
     let turns = |joint: &crate::dynamics::Joint| joint.kind == JointKind::Revolute;
     let joints = if problem.robot.joints().iter().all(turns) {
-        format!("{:.1e}°", found.max_joint_drift.to_degrees())
+        format!("{}°", gap(found.max_joint_drift.to_degrees()))
     } else {
-        format!("{:.1e} rad or m", found.max_joint_drift)
+        format!("{} rad or m", gap(found.max_joint_drift))
     };
     vec![
         Fact::new(
             "under its control",
             format!(
-                "base within {:.1e}° and {:.1e} cm, joints within {joints}",
-                found.max_base_attitude_drift.to_degrees(),
-                100.0 * found.max_base_position_drift
+                "base within {}° and {} cm, joints within {joints}",
+                gap(found.max_base_attitude_drift.to_degrees()),
+                gap(100.0 * found.max_base_position_drift)
             ),
             "the full, unreduced equations of motion of base and arm, integrated by an adaptive \
              method that shares no code with the planner, under the planned control",
@@ -193,9 +193,9 @@ fn verification(found: &Verification, problem: &Problem) -> Vec<Fact> {
         Fact::new(
             "along the planned joint path",
             format!(
-                "base within {:.1e}° and {:.1e} cm",
-                found.replay_base_attitude_drift.to_degrees(),
-                100.0 * found.replay_base_position_drift
+                "base within {}° and {} cm",
+                gap(found.replay_base_attitude_drift.to_degrees()),
+                gap(100.0 * found.replay_base_position_drift)
             ),
             "the same with the joints led along the plan, as a controller would",
         ),
