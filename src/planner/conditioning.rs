@@ -21,8 +21,7 @@ pub struct Conditioning {
     pub condition: f64,
     /// Name of the joint that has the largest part in the motion of least inertia.
     pub joint: String,
-    /// What resists that joint where the others are held, the base being free: its entry on the
-    /// diagonal of H, in `unit`.
+    /// What resists that joint, base and other joints being free: 1/(H⁻¹)ⱼⱼ, in `unit`.
     pub inertia: f64,
     /// kg m² or kg.
     pub unit: &'static str,
@@ -42,7 +41,7 @@ fn along<Sp: Space>(
     let n = system.joint_count();
     let parameters = system.attitude().count();
     let mut data = Data::<Sp, f64>::new(system.tree());
-    let mut worst: Option<(f64, usize, usize, f64)> = None;
+    let mut worst: Option<(usize, Spread)> = None;
     for k in 0..=plan.mesh.points() {
         let theta = &plan.state(k)[parameters..parameters + n];
         system.tree().kinematics(theta, &mut data);
@@ -50,14 +49,24 @@ fn along<Sp: Space>(
         system.tree().mass_matrix(&mut data);
         let lower = &data.mass_matrix;
         let inertia = DMatrix::from_fn(n, n, |i, j| lower[i.max(j) * n + i.min(j)]);
-        let Some((condition, joint)) = condition(&inertia) else {
+        let Some(found) = Spread::of(inertia) else {
             continue;
         };
-        if worst.is_none_or(|(most, ..)| condition > most) {
-            worst = Some((condition, k, joint, inertia[(joint, joint)]));
+        if worst
+            .as_ref()
+            .is_none_or(|(_, most)| found.condition > most.condition)
+        {
+            worst = Some((k, found));
         }
     }
-    let (condition, k, joint, inertia) = worst?;
+    let (
+        k,
+        Spread {
+            condition,
+            joint,
+            inertia,
+        },
+    ) = worst?;
     let joint = &problem.robot.joints()[joint];
     Some(Conditioning {
         time: plan.mesh.node_fractions()[k] * plan.duration,
@@ -68,31 +77,52 @@ fn along<Sp: Space>(
     })
 }
 
-/// The condition number of a symmetric matrix, and the component that is largest in the eigenvector
-/// of its smallest eigenvalue.
-fn condition(inertia: &DMatrix<f64>) -> Option<(f64, usize)> {
-    let found = SymmetricEigen::new(inertia.clone());
-    let (least, small) = found.eigenvalues.argmin();
-    let large = found.eigenvalues.max();
-    (small > 0.0 && large.is_finite()).then(|| {
-        let vector = found.eigenvectors.column(least);
-        (large / small, vector.iamax())
-    })
+/// How far the eigenvalues of an inertia matrix lie apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Spread {
+    /// The largest over the smallest.
+    condition: f64,
+    /// The component that is largest in the eigenvector of the smallest.
+    joint: usize,
+    /// What resists that component where all others are free.
+    inertia: f64,
+}
+
+impl Spread {
+    /// Of a symmetric matrix; `None` where it is not positive definite.
+    fn of(inertia: DMatrix<f64>) -> Option<Self> {
+        let found = SymmetricEigen::new(inertia.clone());
+        let (least, small) = found.eigenvalues.argmin();
+        let large = found.eigenvalues.max();
+        if !(small > 0.0 && large.is_finite()) {
+            return None;
+        }
+        let joint = found.eigenvectors.column(least).iamax();
+        let inverse = inertia.cholesky()?.inverse();
+        Some(Self {
+            condition: large / small,
+            joint,
+            inertia: 1.0 / inverse[(joint, joint)],
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::condition;
+    use super::Spread;
     use nalgebra::DMatrix;
 
     #[test]
     fn the_component_of_least_inertia_is_named() {
         let inertia = DMatrix::from_row_slice(2, 2, &[4.0, 0.1, 0.1, 0.01]);
-        let (found, joint) = condition(&inertia).unwrap();
+        let found = Spread::of(inertia).unwrap();
         // λ = (4.01 ± √(3.99² + 0.04))/2.
         let root = (3.99_f64.powi(2) + 0.04).sqrt();
-        assert!((found / ((4.01 + root) / (4.01 - root)) - 1.0).abs() < 1e-9);
-        assert_eq!(joint, 1);
-        assert_eq!(condition(&DMatrix::zeros(2, 2)), None);
+        let condition = (4.01 + root) / (4.01 - root);
+        assert!((found.condition / condition - 1.0).abs() < 1e-9);
+        assert_eq!(found.joint, 1);
+        // 0.01 − 0.1²/4.
+        assert!((found.inertia - 0.0075).abs() < 1e-12);
+        assert_eq!(Spread::of(DMatrix::zeros(2, 2)), None);
     }
 }

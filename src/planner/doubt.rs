@@ -161,10 +161,10 @@ fn magnified(conditioning: Option<&Conditioning>) -> String {
     let helps = "a smaller mesh.tolerance brings it down";
     match conditioning {
         Some(found) if found.condition >= EXTREME => format!(
-            "no more than {} {} resist joint {}, and the condition number of the inertia matrix H \
+            "no more than {:.1e} {} resist joint {}, and the condition number of the inertia matrix H \
              reaches {:.1e} (at {} s), so that small errors of the control are large errors of the \
              motion; {helps}, and so does a heavier link or a locked joint",
-            digits(found.inertia, 2, 2),
+            found.inertia,
             found.unit,
             found.joint,
             found.condition,

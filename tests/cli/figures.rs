@@ -93,8 +93,8 @@ fn small_figures_keep_their_digits() {
     assert_eq!(run.code, 0, "{run:?}");
     assert!(!run.stdout.contains(" 0.0000 N·m"), "{}", run.stdout);
     let line = run.stdout.lines().find(|line| line.contains("N·m"));
-    let words = line.unwrap().split_whitespace().rev();
-    let peak: f64 = words.skip(1).next().unwrap().parse().unwrap();
+    let mut words = line.unwrap().split_whitespace().rev();
+    let peak: f64 = words.nth(1).unwrap().parse().unwrap();
     let saved = solution(&folder)["metrics"]["peak_joint_torque"]
         .as_f64()
         .unwrap();

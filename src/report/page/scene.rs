@@ -189,7 +189,6 @@ impl<'a> Skeleton<'a> {
 
     fn motion(&self, title: &str, rows: &Trajectory) -> Playback {
         let start = Pose::of(self, rows, 0);
-        let angles = base_angles(rows);
         let mut bodies = Bodies::new(self.robot);
         let mut motion = Playback {
             title: title.into(),
@@ -197,7 +196,7 @@ impl<'a> Skeleton<'a> {
             turned: Vec::with_capacity(rows.t.len()),
             shifted: Vec::with_capacity(rows.t.len()),
         };
-        for k in 0..rows.t.len() {
+        for (k, angle) in base_angles(rows).into_iter().enumerate() {
             let pose = Pose::of(self, rows, k);
             let q = &rows.joint_position[k];
             let base = BaseMotion::placed(pose.position, pose.orientation);
@@ -205,7 +204,7 @@ impl<'a> Skeleton<'a> {
             motion.frames.push(self.points(&base, &bodies));
             let turn = match self.robot.plane() {
                 Some(_) => rows.base_attitude[k][0],
-                None => angles[k],
+                None => angle,
             };
             let shift = (pose.position - start.position).norm();
             motion.turned.push(rounded(turn.to_degrees()));
