@@ -49,10 +49,11 @@ pub fn verification_json(
 
 /// That the plan `name`, saved with that status, is not what it says.
 pub fn in_doubt(name: &str, status: Status, doubt: &Doubt) -> String {
-    format!(
-        "{name}: NOT confirmed, though it was saved as {}: {doubt}",
-        status.words()
-    )
+    let saved = match status {
+        Status::Solved => ", though it was saved as solved".into(),
+        other => format!(" (saved as {})", other.words()),
+    };
+    format!("{name}: NOT confirmed{saved}: {doubt}")
 }
 
 /// The verdict, and what re-integration found, in degrees and centimetres.
