@@ -3,6 +3,7 @@
 pub mod autodiff;
 pub mod collocation;
 pub mod config;
+mod digits;
 pub mod dynamics;
 pub mod integrate;
 mod largest;

@@ -107,7 +107,10 @@ fn matpm_says_which_joint_is_too_slow() {
             .summary
             .contains("joint 'joint2' cannot be there in 20 s")
     );
-    let elbow = diagnosis.limits.iter().find(|l| l.name == "joint 2 rate");
+    let elbow = diagnosis
+        .limits
+        .iter()
+        .find(|l| l.name == "rate of joint joint2");
     let needed = problem.task.final_joints[1] / 20.0;
     assert!((elbow.unwrap().smallest_bound.upper - needed).abs() < 1e-12);
 }

@@ -571,5 +571,8 @@ fn a_way_point_that_cannot_be_reached_in_time_is_named() {
         .find(|l| l.limit.key() == "task.way_points[0]");
     let named = named.unwrap_or_else(|| panic!("{limits:?}"));
     assert_eq!(named.unit.symbol(), "rad");
-    assert!(named.name.starts_with("joint 1 position"), "{named:?}");
+    assert!(
+        named.name.starts_with("position of joint joint1"),
+        "{named:?}"
+    );
 }

@@ -4,6 +4,7 @@ use super::failure::Failure;
 use super::show::{by_name, rounded, show, show_interval};
 use super::{Outcome, terminal};
 use crate::config::{Overrides, ProblemFile};
+use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::ocp::Interval;
@@ -311,7 +312,7 @@ fn straight(problem: &Problem) -> String {
     let list = |values: &[f64], factor: f64, decimals: usize| {
         let shown: Vec<String> = values
             .iter()
-            .map(|value| format!("{:.decimals$}", factor * value))
+            .map(|value| digits(factor * value, decimals, 2))
             .collect();
         if shown.len() == 1 {
             shown[0].clone()

@@ -8,7 +8,6 @@ use crate::report::OutputError;
 use crate::reproduction::ReproductionError;
 use crate::simulate::SimulateError;
 use crate::solution::SolutionError;
-use crate::verify::VerifyError;
 use std::path::Path;
 
 /// What keeps a command from being carried out.
@@ -18,8 +17,6 @@ pub(super) enum Failure {
     Config(#[from] ConfigError),
     #[error(transparent)]
     Solution(#[from] SolutionError),
-    #[error("{path}: {cause}")]
-    Verify { path: String, cause: VerifyError },
     #[error("{path}: {cause}")]
     Start { path: String, cause: PlanError },
     #[error("{path}: {cause}")]
@@ -48,7 +45,6 @@ impl Failure {
             | Self::Config(_)
             | Self::Solution(_)
             | Self::Start { .. }
-            | Self::Verify { .. }
             | Self::Simulate { .. } => 2,
             Self::Output(OutputError::Folder { .. }) => 2,
             Self::Output(OutputError::File { .. } | OutputError::Figure { .. }) => 1,

@@ -106,14 +106,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let file = ProblemFile::load(&arguments.problem, &arguments.overrides()?)?;
     let warm_start = arguments.warm_start.as_deref();
     let start = warm_start
-        .map(|path| solution::read_warm_start(path, &file.problem))
+        .map(|path| solution::read_warm_start(path, &file))
         .transpose()?;
     let default = || Path::new("out").join(&file.problem.name);
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
 
     if !arguments.quiet {
         say(&file);
+        if let Some(other) = start.as_ref().and_then(|start| start.other_robot.as_ref()) {
+            terminal::complain(&format!("note: {other}"));
+        }
     }
+    let start = start.map(|found| found.start);
 
     interrupt::listen();
     let mut progress = Progress::start(&file.problem.name, arguments.quiet);

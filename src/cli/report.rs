@@ -2,9 +2,8 @@
 
 use super::failure::Failure;
 use super::{Outcome, terminal};
-use crate::report::{Lines, OutputFolder, page};
+use crate::report::{Lines, OutputFolder, in_doubt, page};
 use crate::solution::Saved;
-use crate::verify::check;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -24,10 +23,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let path = &arguments.solution;
     let saved = Saved::load(path)?;
     let problem = &saved.file.problem;
-    check(problem, &saved.plan).map_err(|cause| Failure::Verify {
-        path: path.display().to_string(),
-        cause,
-    })?;
     let beside = || path.with_file_name("report.html");
     let out = arguments.out.clone().unwrap_or_else(beside);
     let name = out.file_name().and_then(|name| name.to_str());
@@ -42,10 +37,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         _ => Path::new("."),
     };
     let folder = OutputFolder::create(within)?;
-    let html = page(&saved.solution, problem, &saved.plan);
-    folder.write(name, &html)?;
+    let (solution, doubt) = saved.again();
+    folder.write(name, &page(&solution, problem, &saved.plan))?;
     let mut lines = Lines::default();
     lines.files(&[out]);
-    terminal::print(&format!("{}\n\n{}", problem.name, lines.finish()))?;
-    Ok(Outcome::Done)
+    let (heading, outcome) = match &doubt {
+        Some(doubt) => (
+            in_doubt(&problem.name, saved.solution.status, doubt),
+            Outcome::NotConverged,
+        ),
+        None => (problem.name.clone(), Outcome::Done),
+    };
+    terminal::print(&format!("{heading}\n\n{}", lines.finish()))?;
+    Ok(outcome)
 }

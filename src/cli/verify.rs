@@ -3,10 +3,8 @@
 use super::failure::Failure;
 use super::plan::VERIFICATION;
 use super::{Outcome, terminal};
-use crate::dynamics::JointKind;
 use crate::report::{OutputFolder, verification_json, verification_summary};
 use crate::solution::Saved;
-use crate::verify::verify;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -28,22 +26,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let problem = &saved.file.problem;
     let default = || Path::new("out").join(&problem.name);
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
-    let found = verify(problem, &saved.plan).map_err(|cause| Failure::Verify {
-        path: path.display().to_string(),
-        cause,
-    })?;
-    let json = verification_json(&problem.name, path, &found).map_err(|error| Failure::Format {
+    let judgement = saved.judge();
+    let json = verification_json(path, &saved, &judgement).map_err(|error| Failure::Format {
         path: path.display().to_string(),
         message: error.to_string(),
     })?;
     let files = [folder.write(VERIFICATION, &json)?];
-    let joints = problem.robot.joints();
-    terminal::print(&verification_summary(
-        &problem.name,
-        saved.solution.status,
-        joints.iter().all(|joint| joint.kind == JointKind::Revolute),
-        &found,
-        &files,
-    ))?;
-    Ok(Outcome::Done)
+    terminal::print(&verification_summary(&saved, &judgement, &files))?;
+    Ok(match judgement.doubt {
+        Some(_) => Outcome::NotConverged,
+        None => Outcome::Done,
+    })
 }

@@ -84,7 +84,7 @@ pub trait Nlp {
         values: &mut [f64],
     ) -> Result<(), Undefined>;
 
-    /// What a person calls variable `index` ("joint 2 rate, segment 3, point 4").
+    /// What a person calls variable `index` ("rate of joint elbow, segment 3, point 4").
     fn variable_name(&self, index: usize) -> String {
         format!("variable {index}")
     }

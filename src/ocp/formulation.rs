@@ -5,7 +5,7 @@ use super::Interval;
 /// A named quantity with its bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// What a person calls it ("joint 2 rate").
+    /// What a person calls it ("rate of joint elbow").
     pub name: String,
     /// Bounds along the whole path (states, controls, path rows) or at the ends (boundary rows).
     pub bounds: Interval,

@@ -1,7 +1,9 @@
 //! Planners: from a [`Problem`](crate::problem::Problem) to a [`Plan`].
 
 mod collocation;
+mod conditioning;
 mod dispatch;
+mod doubt;
 mod error;
 mod event;
 pub mod floor;
@@ -13,7 +15,10 @@ mod words;
 
 pub use crate::refine::Start;
 pub use collocation::{BASE_RATE_REGULARIZATION, Planner, plan};
+pub use conditioning::Conditioning;
+pub use doubt::Doubt;
 pub use error::PlanError;
 pub use event::Event;
 pub use method::Method;
 pub use plan::{Diagnosis, LimitFinding, Plan, Starts, Status, Timing};
+pub use verification::{Judgement, judge, judge_solved};

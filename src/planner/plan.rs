@@ -54,7 +54,7 @@ pub struct LimitFinding {
     pub limit: LimitId,
     /// Which component of it.
     pub component: Component,
-    /// What a person calls that component ("base attitude", "base pitch", "joint 2 rate").
+    /// What a person calls that component ("base attitude", "base pitch", "rate of joint elbow").
     pub name: String,
     /// Unit of the bounds.
     pub unit: Unit,

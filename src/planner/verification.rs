@@ -1,9 +1,14 @@
 //! Verification as a step of planning: a plan that does not hold what it says is not solved.
 
-use super::{Plan, Status};
-use crate::dynamics::JointKind;
+use super::collocation::diagnosis::findings;
+use super::conditioning::most_extreme;
+use super::{Doubt, Plan, Status};
+use crate::dynamics::space::Space;
 use crate::largest::largest;
-use crate::problem::Problem;
+use crate::ocp::{Limited, Ocp};
+use crate::problem::{Problem, Unit};
+use crate::system::{FreeFloating, System, with_system};
+use crate::transcription::Discretization;
 use crate::verify::{Verification, verify};
 
 /// Part of the largest joint travel by which a re-integrated motion may drift from the plan.
@@ -12,6 +17,52 @@ const DRIFT: f64 = 1e-2;
 const OF_LIMIT: f64 = 0.1;
 /// Drift of the base that counts for nothing, rad.
 const NEGLIGIBLE: f64 = 1e-3;
+/// Drift of a joint that counts for nothing, rad or m: far above rounding, far below any use.
+const ROUNDING: f64 = 1e-9;
+/// How far a state of a solved plan may be from where its task has it, in SI units.
+const THERE: f64 = 1e-4;
+/// The same of the duration, relative.
+const IN_TIME: f64 = 1e-6;
+
+/// What came of checking a plan.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Judgement {
+    /// What re-integration found; `None` where it failed.
+    pub verification: Option<Verification>,
+    /// Why the plan is not what it says; `None` where nothing speaks against it.
+    pub doubt: Option<Doubt>,
+}
+
+/// Re-integrates `plan` by equations that planning has no part in, and judges it by that.
+///
+/// It is doubted where the re-integration fails, or where it drifts too far from the plan: joints by
+/// more than a hundredth of the largest travel of a joint; the base by more than that angle, or than
+/// a tenth of the tightest limit on its attitude, but not below a milliradian.
+pub fn judge(problem: &Problem, plan: &Discretization) -> Judgement {
+    match verify(problem, plan) {
+        Ok(found) => Judgement {
+            verification: Some(found),
+            doubt: drifted(problem, plan, &found),
+        },
+        Err(error) => Judgement {
+            verification: None,
+            doubt: Some(Doubt::Unchecked(error)),
+        },
+    }
+}
+
+/// [`judge`] of a plan that is said to be solved: it is also to take the time of its task, to begin
+/// and end where that says, and to keep to all limits at its nodes.
+pub fn judge_solved(problem: &Problem, plan: &Discretization) -> Judgement {
+    let mut found = judge(problem, plan);
+    if found.doubt.is_none() {
+        found.doubt = late(problem, plan).or_else(
+            || with_system!(&System::new(problem), system => misplaced(problem, system, plan)),
+        );
+    }
+    found
+}
 
 impl Plan {
     /// The plan, which counts as not converged where a figure of it is not a finite number: such a
@@ -64,71 +115,99 @@ impl Plan {
         .find_map(|(what, finite)| (!finite).then_some(what))
     }
 
-    /// Re-integrates the plan by equations that planning has no part in, and judges it by that.
+    /// [`judge`]s the plan, by which it counts as not converged where there is a doubt.
     ///
-    /// A solved plan for `problem` counts as not converged where the re-integration fails, or where
-    /// it drifts too far from the plan: joints by more than a hundredth of the largest travel of a
-    /// joint; the base by more than that angle, or than a tenth of the tightest limit on its
-    /// attitude, but not below a milliradian. A warning then says so. Infeasible and interrupted
-    /// plans are left as they are: there is no plan to check, or no time for it.
+    /// A warning then says so. Infeasible and interrupted plans are left as they are: there is no
+    /// plan to check, or no time for it.
     pub fn verify(&mut self, problem: &Problem) {
         if matches!(self.status, Status::Infeasible | Status::Interrupted) {
             return;
         }
-        let doubt = match verify(problem, &self.discretization) {
-            Ok(found) => {
-                self.verification = Some(found);
-                self.drifted(problem, &found)
-            }
-            Err(error) => Some(format!("the plan could not be checked: {error}")),
-        };
+        let Judgement {
+            verification,
+            doubt,
+        } = judge(problem, &self.discretization);
+        self.verification = verification;
         if self.status == Status::Solved
             && let Some(doubt) = doubt
         {
             self.status = Status::NotConverged;
-            self.warnings.push(doubt);
+            self.warnings.push(doubt.to_string());
         }
     }
+}
 
-    /// A word where the re-integrated motion is too far from the plan.
-    fn drifted(&self, problem: &Problem, found: &Verification) -> Option<String> {
-        let joints = problem.robot.joints();
-        let turns = joints.iter().all(|joint| joint.kind == JointKind::Revolute);
-        let travel = self.travel();
-        let (joint_room, base_room) = (DRIFT * travel, base_room(problem, DRIFT * travel));
-        let shown = |value: f64| match turns {
-            true => format!("{:.2}°", value.to_degrees()),
-            false => format!("{value:.2e} rad or m"),
-        };
-        let (joint, base) = (found.max_joint_drift, found.max_base_attitude_drift);
-        let helps = "a smaller mesh.tolerance brings it down; a joint that hardly any mass resists \
-                     magnifies every error";
-        let too_far = |drift: f64, room: f64| drift.is_nan() || drift > room;
-        if too_far(joint, joint_room) {
-            return Some(format!(
-                "re-integrated under its control, the motion leaves the plan: joints drift by {}, \
-                 more than the {} (a hundredth of their travel) that a solved plan may; {helps}",
-                shown(joint),
-                shown(joint_room)
-            ));
+/// Whether the re-integrated motion is too far from the plan.
+fn drifted(problem: &Problem, plan: &Discretization, found: &Verification) -> Option<Doubt> {
+    let travel = travel(problem, plan);
+    let joint_room = (DRIFT * travel).max(ROUNDING);
+    let base_room = base_room(problem, DRIFT * travel);
+    let too_far = |drift: f64, room: f64| drift.is_nan() || drift > room;
+    if too_far(found.max_joint_drift, joint_room) {
+        let joint = &problem.robot.joints()[found.worst_joint];
+        return Some(Doubt::JointDrift {
+            joint: joint.name.clone(),
+            unit: Unit::position(joint.kind),
+            drift: found.max_joint_drift,
+            room: joint_room,
+            conditioning: most_extreme(problem, plan),
+        });
+    }
+    too_far(found.max_base_attitude_drift, base_room).then(|| Doubt::BaseDrift {
+        drift: found.max_base_attitude_drift,
+        room: base_room,
+        led: found.replay_base_attitude_drift,
+        conditioning: most_extreme(problem, plan),
+    })
+}
+
+/// The largest way of a joint from where it was, rad or m.
+fn travel(problem: &Problem, plan: &Discretization) -> f64 {
+    let (parameters, _) = problem.attitude_sizes();
+    let n = problem.robot.joint_count();
+    let joints = |k: usize| &plan.state(k)[parameters..parameters + n];
+    let ways = (0..=plan.mesh.points()).flat_map(|k| joints(k).iter().zip(joints(0)));
+    largest(ways.map(|(q, start)| (q - start).abs()))
+}
+
+/// Whether the plan takes another time than its task gives.
+fn late(problem: &Problem, plan: &Discretization) -> Option<Doubt> {
+    let allowed = problem.task.duration;
+    (allowed.violation(plan.duration) > IN_TIME * plan.duration).then_some(Doubt::Duration {
+        found: plan.duration,
+        expected: [allowed.lower, allowed.upper],
+    })
+}
+
+/// The first state that is not where the task begins or ends, else the limits that do not hold.
+fn misplaced<Sp: Space>(
+    problem: &Problem,
+    system: &FreeFloating<Sp>,
+    plan: &Discretization,
+) -> Option<Doubt> {
+    let formulation = system.formulation();
+    let last = plan.mesh.points();
+    for i in 0..plan.states {
+        for (k, bounds, row) in [
+            (0, formulation.initial[i], Limited::State(i)),
+            (last, formulation.terminal[i], Limited::Terminal(i)),
+        ] {
+            let found = plan.state(k)[i];
+            // Limits on the base at the end are limits, and said below.
+            if bounds.is_fixed() && bounds.violation(found) > THERE {
+                let row = system.bound(row);
+                return Some(Doubt::Ends {
+                    name: row.quantity.name.clone(),
+                    unit: row.unit,
+                    time: plan.mesh.node_fractions()[k] * plan.duration,
+                    found,
+                    expected: bounds.lower,
+                });
+            }
         }
-        too_far(base, base_room).then(|| {
-            format!(
-                "re-integrated under its control, the motion leaves the plan: the base drifts by \
-                 {:.3}°, more than the {:.3}° that a solved plan may; {helps}",
-                base.to_degrees(),
-                base_room.to_degrees()
-            )
-        })
     }
-
-    /// The largest way of a joint from where it was, rad or m.
-    fn travel(&self) -> f64 {
-        let rows = &self.trajectory.joint_position;
-        let first = rows.first().map_or(&[][..], |row| row);
-        let ways = rows.iter().flat_map(|row| row.iter().zip(first));
-        largest(ways.map(|(q, start)| (q - start).abs()))
-    }
+    let limits = findings(problem, system, &system.elastic_limits(), plan);
+    (!limits.is_empty()).then_some(Doubt::Limits(limits))
 }
 
 /// How far the base may drift, rad.

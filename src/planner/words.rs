@@ -1,6 +1,7 @@
 //! Limits in words, in degrees and metres.
 
 use super::LimitFinding;
+use crate::digits::digits;
 use crate::ocp::Interval;
 use crate::problem::LimitId;
 use crate::system::Component;
@@ -60,42 +61,17 @@ pub(super) fn sentence(
 /// A bound as a person reads it.
 fn shown(finding: &LimitFinding, bound: &Interval) -> String {
     let (factor, unit) = finding.unit.readable();
-    let number = |value: f64| digits(value * factor);
+    let number = |value: f64| digits(value * factor, 2, 3);
     if finding.component == Component::RotationAngle {
         format!("{}{unit}", number(bound.upper))
     } else if finding.limit == LimitId::KeepOut {
-        format!("a clearance of {:.4}{unit}", bound.lower * factor)
+        format!(
+            "a clearance of {}{unit}",
+            digits(bound.lower * factor, 4, 3)
+        )
     } else if bound.lower == -bound.upper {
         format!("±{}{unit}", number(bound.upper))
     } else {
         format!("[{}, {}]{unit}", number(bound.lower), number(bound.upper))
-    }
-}
-
-/// Two decimals; below one three digits that count, so that a small bound is not shown as zero.
-fn digits(value: f64) -> String {
-    if value == 0.0 || value.abs() >= 0.995 || !value.is_finite() {
-        return format!("{value:.2}");
-    }
-    let decimals = 2 - value.abs().log10().floor().max(-9.0) as i32;
-    format!("{value:.*}", decimals.max(2) as usize)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::digits;
-
-    #[test]
-    fn a_small_bound_is_not_shown_as_zero() {
-        for (value, shown) in [
-            (29.1942, "29.19"),
-            (-1.5, "-1.50"),
-            (0.9, "0.900"),
-            (0.00495, "0.00495"),
-            (0.0, "0.00"),
-            (f64::INFINITY, "inf"),
-        ] {
-            assert_eq!(digits(value), shown);
-        }
     }
 }

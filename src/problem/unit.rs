@@ -60,6 +60,14 @@ impl Unit {
         }
     }
 
+    /// Symbol of what resists the acceleration of a joint.
+    pub fn inertia(kind: JointKind) -> &'static str {
+        match kind {
+            JointKind::Revolute => "kg m²",
+            JointKind::Prismatic => "kg",
+        }
+    }
+
     /// The symbol; "1" where there is no unit.
     pub fn symbol(self) -> &'static str {
         match self {

@@ -2,6 +2,7 @@
 
 use super::Sheet;
 use super::rows::Rows;
+use crate::digits::digits;
 use crate::planner::Status;
 use crate::study::{Comparison, Entry};
 use crate::system::{JointEffort, Metrics};
@@ -98,11 +99,20 @@ impl<'a> ComparisonReport<'a> {
         }
         text.push_str(&self.list());
         text.push_str(&format!(
-            "\nAngles are the largest of any base angle. Sliding joints count in m and N. J is \
-             the problem's cost, whatever a planner's own.\n{}",
+            "\nAngles are those of the base's rotation. Sliding joints count in m and N. J is \
+             the problem's cost, whatever a planner's own{}.\n{}",
+            match self.has_infeasible() {
+                true => "; where infeasible, that of a motion that does not keep all limits",
+                false => "",
+            },
             Self::origin()
         ));
         text
+    }
+
+    fn has_infeasible(&self) -> bool {
+        let infeasible = Status::Infeasible.name();
+        self.rows.iter().any(|row| row.status == infeasible)
     }
 
     fn sheet(&self) -> Sheet {
@@ -122,7 +132,7 @@ impl<'a> ComparisonReport<'a> {
         ])
         .words(2);
         let shown = |value: Option<f64>, factor: f64, decimals: usize| {
-            value.map_or_else(|| "–".into(), |v| format!("{:.decimals$}", v * factor))
+            value.map_or_else(|| "–".into(), |v| digits(v * factor, decimals, 2))
         };
         let digits = |value: Option<f64>| value.map_or_else(|| "–".into(), |v| format!("{v:.3e}"));
         let degrees = 1f64.to_degrees();

@@ -1,6 +1,7 @@
 //! The comparison as one figure: base and joints over time, a line a planner.
 
 use crate::collocation::Mesh;
+use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::ocp::Interval;
 use crate::planner::Plan;
@@ -90,9 +91,9 @@ impl Limit {
         let bound = bound.filter(|bound| !bound.is_free())?;
         let [lower, upper] = [bound.lower, bound.upper].map(|value| factor * value);
         let title = if lower == -upper {
-            format!(", limit ±{upper:.1}{unit}")
+            format!(", limit ±{}{unit}", digits(upper, 1, 2))
         } else {
-            let text = |value: f64| format!("{value:.1}{unit}").replace('-', "−");
+            let text = |value: f64| format!("{}{unit}", digits(value, 1, 2)).replace('-', "−");
             match (lower.is_finite(), upper.is_finite()) {
                 (true, true) => format!(", limits {} and {}", text(lower), text(upper)),
                 (true, false) => format!(", at least {}", text(lower)),

@@ -1,6 +1,7 @@
 //! What `simulate --fit` leaves behind: `fit.md`, which is also printed, and `fit.json`.
 
 use super::Sheet;
+use crate::digits::digits;
 use crate::simulate::fit::{Comparison, Fit, Fitted, Scale};
 use crate::solution::{Build, to_json};
 use serde::Serialize;
@@ -96,7 +97,7 @@ impl FitReport {
         let measured = self.unfitted.iter().map(|c| shown(c.angle, c.measured));
         let start = ["measured", "", "", "", ""].map(String::from);
         add(start, measured.collect());
-        let residual = format!("{:.2}", self.unfitted_residual);
+        let residual = digits(self.unfitted_residual, 2, 2);
         let start = [
             "as it is".into(),
             "0".into(),
@@ -110,8 +111,8 @@ impl FitReport {
             let start = [
                 name.clone(),
                 fit.parameters.len().to_string(),
-                format!("{:.2}", fit.residual),
-                format!("{:.2}", reduced(fit)),
+                digits(fit.residual, 2, 2),
+                digits(reduced(fit), 2, 2),
                 format!("{near} of {starts}"),
             ];
             add(start, cells(&fit.comparisons));
@@ -261,9 +262,9 @@ pub fn reduced(fit: &Fit) -> f64 {
 /// An angle in degrees or a length in centimetres, as the paper gives them.
 fn shown(angle: bool, value: f64) -> String {
     if angle {
-        format!("{:.1}°", value.to_degrees())
+        format!("{}°", digits(value.to_degrees(), 1, 1))
     } else {
-        format!("{:.1} cm", 100.0 * value)
+        format!("{} cm", digits(100.0 * value, 1, 1))
     }
 }
 

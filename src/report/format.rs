@@ -1,17 +1,27 @@
 //! Numbers as a person reads them.
 
+use crate::digits::digits;
 use crate::dynamics::attitude::SpatialAttitude;
+use crate::largest::largest;
 use crate::solution::Timing;
 use std::time::Duration;
 
-/// An angle (rad) in degrees, three decimals.
+/// An angle (rad) in degrees: three decimals, more where it is small.
 pub fn degrees(angle: f64) -> String {
-    format!("{:.3}°", unsigned_zero(angle.to_degrees(), 3))
+    format!("{}°", digits(angle.to_degrees(), 3, 2))
 }
 
-/// A length (m) in centimetres, three decimals.
+/// A length (m) in centimetres: three decimals, more where it is small.
 pub fn centimetres(length: f64) -> String {
-    format!("{:.3} cm", unsigned_zero(100.0 * length, 3))
+    format!("{} cm", digits(100.0 * length, 3, 2))
+}
+
+/// A difference that should be small: by a power of ten where it is.
+pub(super) fn gap(difference: f64) -> String {
+    match difference < 0.01 {
+        true => format!("{difference:.1e}"),
+        false => digits(difference, 2, 2),
+    }
 }
 
 /// A time in ms or s, three digits.
@@ -54,6 +64,14 @@ pub fn rotation(attitude: SpatialAttitude, eta: &[f64]) -> String {
     }
 }
 
+/// The cost J.
+pub(super) fn cost(objective: f64) -> String {
+    digits(objective, 9, 6)
+}
+
+/// What the cost J of an infeasible plan is the cost of.
+pub(super) const OF_RELAXED: &str = "of the motion below, which does not keep all limits";
+
 /// Keeps "-0.000" from being printed.
 fn unsigned_zero(value: f64, decimals: i32) -> f64 {
     if value.abs() < 0.5 * 10f64.powi(-decimals) {
@@ -63,9 +81,14 @@ fn unsigned_zero(value: f64, decimals: i32) -> f64 {
     }
 }
 
+/// Part of the largest of several values below which one is rounding, and shown as zero.
+const ROUNDING: f64 = 1e-9;
+
 /// Several values in brackets, or the one alone.
 pub(super) fn list(values: &[f64], show: fn(f64) -> String) -> String {
-    let shown: Vec<String> = values.iter().map(|value| show(*value)).collect();
+    let least = ROUNDING * largest(values.iter().map(|value| value.abs()));
+    let shown = |value: f64| show(if value.abs() < least { 0.0 } else { value });
+    let shown: Vec<String> = values.iter().map(|value| shown(*value)).collect();
     if shown.len() == 1 {
         shown[0].clone()
     } else {

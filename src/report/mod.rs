@@ -35,4 +35,4 @@ pub use rows::Rows;
 pub use sheet::{Sheet, exact, short};
 pub use simulation::Simulation;
 pub use summary::{summary, verdict};
-pub use verification::{verification_json, verification_summary};
+pub use verification::{in_doubt, verification_json, verification_summary};

@@ -2,6 +2,7 @@
 
 use super::Sheet;
 use super::rows::Rows;
+use crate::digits::digits;
 use crate::planner::Status;
 use crate::study::pareto::ParetoPoint;
 use crate::system::JointEffort;
@@ -113,9 +114,9 @@ impl<'a> ParetoReport<'a> {
                 row.status.words().into(),
                 format!("{:.4e}", row.base_motion),
                 format!("{:.4e}", row.joint_effort),
-                format!("{:.3}", row.max_base_attitude.to_degrees()),
-                format!("{:.3}", row.final_base_attitude.to_degrees()),
-                format!("{:.3}", 100.0 * row.final_base_displacement),
+                digits(row.max_base_attitude.to_degrees(), 3, 2),
+                digits(row.final_base_attitude.to_degrees(), 3, 2),
+                digits(100.0 * row.final_base_displacement, 3, 2),
                 format!("{:.3e}", row.control_integral),
                 format!("{:.3e}", row.torque_integral),
                 row.nlp_iterations.to_string(),

@@ -1,6 +1,7 @@
 //! Largest magnitudes over all joints of a kind, which share their units.
 
 use super::format::{centimetres, degrees};
+use crate::digits::digits;
 use crate::dynamics::{JointKind, Model};
 
 /// Largest rate and effort of the joints of one kind.
@@ -44,13 +45,13 @@ impl Peaks {
 
     /// How fast and how hard.
     pub fn describe(&self) -> String {
-        let effort = self.effort;
+        let effort = digits(self.effort, 4, 3);
         match self.kind {
             JointKind::Revolute => {
-                format!("at most {}/s and {effort:.4} N·m", degrees(self.rate))
+                format!("at most {}/s and {effort} N·m", degrees(self.rate))
             }
             JointKind::Prismatic => {
-                format!("at most {}/s and {effort:.4} N", centimetres(self.rate))
+                format!("at most {}/s and {effort} N", centimetres(self.rate))
             }
         }
     }

@@ -1,8 +1,9 @@
 //! What a roboticist wants to know, in degrees and centimetres.
 
-use super::format::{centimetres, degrees, list, rotation, seconds, shares};
+use super::format::{OF_RELAXED, centimetres, cost, degrees, gap, list, rotation, seconds, shares};
 use super::lines::Lines;
 use super::peaks::Peaks;
+use crate::digits::digits;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
 use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Status};
@@ -16,11 +17,17 @@ use std::path::PathBuf;
 /// The summary of `plan`, some twenty lines; `files` are those written.
 pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
     let mut lines = Lines::default();
-    if plan.status != Status::Infeasible {
-        quality(&mut lines, plan);
+    match plan.status {
+        Status::Infeasible => {
+            lines.add("cost J", format!("{}, {OF_RELAXED}", cost(plan.objective)));
+        }
+        _ => quality(&mut lines, plan),
     }
     if !problem.task.duration.is_fixed() {
-        lines.add("duration", format!("{:.6} s", plan.discretization.duration));
+        lines.add(
+            "duration",
+            format!("{} s", digits(plan.discretization.duration, 6, 3)),
+        );
     }
     motion(&mut lines, &problem.robot, plan);
     goals(&mut lines, problem, plan);
@@ -67,7 +74,7 @@ fn quality(lines: &mut Lines, plan: &Plan) {
         plan.max_error, plan.tolerance
     );
     let size = format!("{} segments, {} points", mesh.segments(), mesh.points());
-    lines.add("cost J", format!("{:.9}", plan.objective));
+    lines.add("cost J", cost(plan.objective));
     if plan.method == Method::BaseRate {
         let own = format!(
             "of the problem; above the planner's own, ∫‖η̇‖² + {BASE_RATE_REGULARIZATION:?} ∫‖u‖²"
@@ -84,14 +91,14 @@ fn verification(lines: &mut Lines, robot: &Model, found: &Verification) {
         .iter()
         .all(|joint| joint.kind == JointKind::Revolute);
     let joints = if all_turn {
-        format!("{:.1e}°", found.max_joint_drift.to_degrees())
+        format!("{}°", gap(found.max_joint_drift.to_degrees()))
     } else {
-        format!("{:.1e} rad or m", found.max_joint_drift)
+        format!("{} rad or m", gap(found.max_joint_drift))
     };
     let base = format!(
-        "base within {:.1e}° and {:.1e} cm",
-        found.max_base_attitude_drift.to_degrees(),
-        100.0 * found.max_base_position_drift
+        "base within {}° and {} cm",
+        gap(found.max_base_attitude_drift.to_degrees()),
+        gap(100.0 * found.max_base_position_drift)
     );
     let momentum = format!("momentum below {:.1e} kg m²/s", found.max_angular_momentum);
     lines.add(
@@ -138,7 +145,12 @@ fn motion(lines: &mut Lines, robot: &Model, plan: &Plan) {
     let attitude = last(&plan.trajectory.base_attitude);
     let at_end = match plan.trajectory.attitude {
         Some(by) if !by.is_angles() => rotation(by, &attitude),
-        _ => list(&attitude, degrees),
+        _ if attitude.len() == 1 => list(&attitude, degrees),
+        _ => format!(
+            "{} {}",
+            degrees(found.final_base_attitude),
+            list(&attitude, degrees)
+        ),
     };
     lines.add(
         "base attitude",
@@ -183,7 +195,11 @@ fn goals(lines: &mut Lines, problem: &Problem, plan: &Plan) {
         }
         let gaps = [found.distance.map(centimetres), found.angle.map(degrees)];
         let gaps: Vec<String> = gaps.into_iter().flatten().collect();
-        let off = format!("{} off its goal at {:.3} s", gaps.join(" and "), found.t);
+        let off = format!(
+            "{} off its goal at {} s",
+            gaps.join(" and "),
+            digits(found.t, 3, 2)
+        );
         let allowed = match plan.status {
             Status::Solved => ", as allowed",
             _ => "",
@@ -210,7 +226,11 @@ fn iterations(plan: &Plan) -> String {
             record.segments.to_string(),
             record.points.to_string(),
             format!("{:.3e}", record.max_error),
-            format!("{:.9}", record.objective),
+            // J of meshes without a solution is the cost of nothing.
+            match plan.status {
+                Status::Infeasible => "–".into(),
+                _ => cost(record.objective),
+            },
             format!(
                 "{} iteration{}, {}",
                 record.nlp_iterations,

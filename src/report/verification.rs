@@ -1,9 +1,11 @@
 //! What `verify` leaves behind: `verification.json` and the lines a person reads.
 
 use super::Lines;
-use crate::planner::Status;
+use super::format::gap;
+use crate::dynamics::JointKind;
+use crate::planner::{Doubt, Judgement, Status};
 use crate::solution;
-use crate::solution::{Build, Verification, to_json};
+use crate::solution::{Build, Saved, Verification, to_json};
 use crate::verify;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -15,36 +17,70 @@ struct Document<'a> {
     /// Path of the solution, as given.
     solution: String,
     version: &'static str,
-    verification: Verification,
+    /// That of the solution, as saved.
+    status: Status,
+    /// Whether nothing speaks against it.
+    confirmed: bool,
+    /// What does.
+    doubt: Option<String>,
+    verification: Option<Verification>,
 }
 
-/// `verification.json` of the solution at `path` for the problem `name`.
+/// `verification.json` of `saved`, the solution at `path`.
 ///
 /// # Errors
 /// None that is expected: all keys are strings.
 pub fn verification_json(
-    name: &str,
     path: &Path,
-    found: &verify::Verification,
+    saved: &Saved,
+    judgement: &Judgement,
 ) -> serde_json::Result<String> {
     to_json(&Document {
         schema: 1,
-        name,
+        name: &saved.file.problem.name,
         solution: path.display().to_string(),
         version: Build::VERSION,
-        verification: solution::verification(found),
+        status: saved.solution.status,
+        confirmed: judgement.doubt.is_none(),
+        doubt: judgement.doubt.as_ref().map(Doubt::to_string),
+        verification: judgement.verification.as_ref().map(solution::verification),
     })
 }
 
-/// What re-integration found, in degrees and centimetres; `joints_turn` where no joint slides.
-pub fn verification_summary(
-    name: &str,
-    status: Status,
-    joints_turn: bool,
-    found: &verify::Verification,
-    files: &[PathBuf],
-) -> String {
-    let small = |value: f64, unit: &str| format!("{value:.1e}{unit}");
+/// That the plan `name`, saved with that status, is not what it says.
+pub fn in_doubt(name: &str, status: Status, doubt: &Doubt) -> String {
+    let saved = match status {
+        Status::Solved => ", though it was saved as solved".into(),
+        other => format!(" (saved as {})", other.words()),
+    };
+    format!("{name}: NOT confirmed{saved}: {doubt}")
+}
+
+/// The verdict, and what re-integration found, in degrees and centimetres.
+pub fn verification_summary(saved: &Saved, judgement: &Judgement, files: &[PathBuf]) -> String {
+    let problem = &saved.file.problem;
+    let joints = problem.robot.joints();
+    let joints_turn = joints.iter().all(|joint| joint.kind == JointKind::Revolute);
+    let mut lines = Lines::default();
+    if let Some(found) = &judgement.verification {
+        figures(&mut lines, found, joints_turn);
+    }
+    lines.files(files);
+    let status = saved.solution.status;
+    let heading = match &judgement.doubt {
+        Some(doubt) => in_doubt(&problem.name, status, doubt),
+        None => format!(
+            "{}: planned ({}), the unreduced dynamics integrated again",
+            problem.name,
+            status.words()
+        ),
+    };
+    format!("{heading}\n\n{}", lines.finish())
+}
+
+/// What re-integration found; `joints_turn` where no joint slides.
+fn figures(lines: &mut Lines, found: &verify::Verification, joints_turn: bool) {
+    let small = |value: f64, unit: &str| format!("{}{unit}", gap(value));
     let attitude = |angle: f64| small(angle.to_degrees(), "°");
     let length = |length: f64| small(100.0 * length, " cm");
     let joints = if joints_turn {
@@ -52,7 +88,6 @@ pub fn verification_summary(
     } else {
         small(found.max_joint_drift, " rad or m")
     };
-    let mut lines = Lines::default();
     lines.add(
         "under its control",
         format!(
@@ -85,10 +120,4 @@ pub fn verification_summary(
         ),
     );
     lines.add("steps", found.steps.to_string());
-    lines.files(files);
-    format!(
-        "{name}: planned ({}), the unreduced dynamics integrated again\n\n{}",
-        status.words(),
-        lines.finish()
-    )
 }

@@ -3,6 +3,7 @@
 //! Files hold SI units and radians with every digit of a double; docs/solution-file.md describes
 //! the format.
 
+mod again;
 mod build;
 mod csv;
 mod json;
@@ -10,6 +11,7 @@ pub(crate) mod number;
 mod provenance;
 mod read;
 mod schema;
+mod shape;
 mod warm_start;
 mod write;
 
@@ -22,7 +24,7 @@ pub use schema::{
     CostTerm, Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing,
     Trajectory, Verification,
 };
-pub use warm_start::read_warm_start;
+pub use warm_start::{OtherRobot, WarmStart, read_warm_start};
 pub use write::solution;
 
 pub(crate) use write::{timing, verification};

@@ -1,10 +1,13 @@
 //! A saved solution, read back: the file, the plan on its mesh, the problem it is a plan for.
 
 use super::provenance::fingerprint;
-use super::{Solution, Trajectory};
+use super::shape::{self, Misfit};
+use super::{Provenance, Solution, Trajectory};
 use crate::collocation::{Mesh, MeshError};
 use crate::config::{ConfigError, ProblemFile, regular};
+use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::planner::Status;
+use crate::problem::Problem;
 use crate::transcription::Discretization;
 use std::path::{Path, PathBuf};
 
@@ -41,13 +44,13 @@ pub enum SolutionError {
         /// What is wrong.
         cause: MeshError,
     },
-    /// Its rows do not fit its mesh.
-    #[error("{}: trajectory.{key}: {found}; expected {expected}", path.display())]
-    Rows {
+    /// Something in it does not fit the rest of it, or the robot.
+    #[error("{}: {key}: {found}; expected {expected}", path.display())]
+    Misfit {
         /// The file.
         path: PathBuf,
-        /// The quantity.
-        key: &'static str,
+        /// Where in it.
+        key: String,
         /// What stands there.
         found: String,
         /// What was expected.
@@ -79,7 +82,7 @@ impl Saved {
     /// Reads a `solution.json` with everything in it that was planned, and for what.
     ///
     /// # Errors
-    /// [`SolutionError`]. Whether the plan fits the problem is seen when it is used.
+    /// [`SolutionError`].
     pub fn load(path: &Path) -> Result<Self, SolutionError> {
         Self::of(path, read_solution(path)?)
     }
@@ -91,13 +94,7 @@ impl Saved {
     pub fn of(path: &Path, solution: Solution) -> Result<Self, SolutionError> {
         let plan = discretization(path, &solution)?;
         let kept = &solution.provenance;
-        if kept.robot_sha256 != fingerprint(&kept.robot.text) {
-            return Err(SolutionError::Format {
-                path: path.into(),
-                key: "provenance.robot".into(),
-                message: "its text is not the one that robot_sha256 belongs to".into(),
-            });
-        }
+        untouched(path, kept)?;
         let file = ProblemFile::restore(
             (&kept.problem.path, &kept.problem.text),
             (&kept.robot.path, &kept.robot.text),
@@ -107,6 +104,16 @@ impl Saved {
             path: path.into(),
             cause: Box::new(error),
         })?;
+        let (problem, found) = (&file.problem, description(path, &solution)?);
+        fits(path, &solution, problem, found)?;
+        if let Some(found) = found.filter(|found| *found != problem.attitude) {
+            return Err(SolutionError::Misfit {
+                path: path.into(),
+                key: "trajectory.attitude".into(),
+                found: format!("\"{}\"", found.name()),
+                expected: format!("\"{}\", as the problem has it", problem.attitude.name()),
+            });
+        }
         Ok(Self {
             solution,
             file,
@@ -176,84 +183,98 @@ pub(super) fn discretization(
                 cause,
             }
         })?;
-    rows(mesh, &solution.trajectory).map_err(|row| {
-        let Misfit {
-            key,
-            found,
-            expected,
-        } = row;
-        SolutionError::Rows {
-            path: path.into(),
-            key,
-            found,
-            expected,
-        }
-    })
+    shape::check(solution, &mesh).map_err(|misfit| misfit_in(path, misfit))?;
+    Ok(on_mesh(mesh, &solution.trajectory))
 }
 
-struct Misfit {
-    key: &'static str,
-    found: String,
-    expected: String,
-}
-
-fn rows(mesh: Mesh, trajectory: &Trajectory) -> Result<Discretization, Misfit> {
+/// The rows of `trajectory`, which fit `mesh`, as the solver has them.
+fn on_mesh(mesh: Mesh, trajectory: &Trajectory) -> Discretization {
     let nodes = mesh.points() + 1;
-    let columns = [
-        ("base_attitude", &trajectory.base_attitude),
-        ("joint_position", &trajectory.joint_position),
-        ("joint_velocity", &trajectory.joint_velocity),
-        ("control", &trajectory.control),
-    ];
-    if trajectory.t.len() != nodes {
-        let found = format!("{} times", trajectory.t.len());
-        return Err(Misfit {
-            key: "t",
-            found,
-            expected: format!("{nodes}, one a node of the mesh"),
-        });
-    }
-    for (key, rows) in columns {
-        if rows.len() != nodes {
-            let found = format!("{} rows", rows.len());
-            return Err(Misfit {
-                key,
-                found,
-                expected: format!("{nodes}, one a node of the mesh"),
-            });
-        }
-        let width = rows[0].len();
-        if let Some(k) = rows.iter().position(|row| row.len() != width) {
-            let found = format!("row {k} has {} values", rows[k].len());
-            return Err(Misfit {
-                key,
-                found,
-                expected: format!("{width}, as in row 0"),
-            });
-        }
-    }
-    let duration = trajectory.t[nodes - 1];
-    if duration <= 0.0 {
-        let found = format!("the last time is {duration}");
-        return Err(Misfit {
-            key: "t",
-            found,
-            expected: "a duration above zero".into(),
-        });
-    }
-    let [eta, theta, rates, u] = columns.map(|(_, rows)| rows);
+    let (eta, theta) = (&trajectory.base_attitude, &trajectory.joint_position);
+    let (rates, u) = (&trajectory.joint_velocity, &trajectory.control);
     let x = (0..nodes)
         .flat_map(|k| [&eta[k], &theta[k], &rates[k]])
         .flatten()
         .copied()
         .collect();
-    Ok(Discretization {
-        duration,
+    Discretization {
+        duration: trajectory.t[nodes - 1],
         states: eta[0].len() + theta[0].len() + rates[0].len(),
         controls: u[0].len(),
         x,
         // The control at t_f is extrapolated, not a variable.
         u: u[..nodes - 1].iter().flatten().copied().collect(),
         mesh,
+    }
+}
+
+/// Whether the robot's text is the one that was planned for.
+pub(super) fn untouched(path: &Path, kept: &Provenance) -> Result<(), SolutionError> {
+    if kept.robot_sha256 == fingerprint(&kept.robot.text) {
+        return Ok(());
+    }
+    Err(SolutionError::Format {
+        path: path.into(),
+        key: "provenance.robot".into(),
+        message: "its text is not the one that robot_sha256 belongs to".into(),
     })
+}
+
+/// Whether the rows of `solution`, even ones, are those of `problem`'s robot.
+pub(super) fn fits(
+    path: &Path,
+    solution: &Solution,
+    problem: &Problem,
+    attitude: Option<SpatialAttitude>,
+) -> Result<(), SolutionError> {
+    shape::check_robot(&solution.trajectory, problem, attitude)
+        .map_err(|misfit| misfit_in(path, misfit))
+}
+
+fn misfit_in(path: &Path, misfit: Misfit) -> SolutionError {
+    let Misfit {
+        key,
+        found,
+        expected,
+    } = misfit;
+    SolutionError::Misfit {
+        path: path.into(),
+        key,
+        found,
+        expected,
+    }
+}
+
+/// How the base attitude of `solution` is described; `None` for one angle.
+pub(super) fn description(
+    path: &Path,
+    solution: &Solution,
+) -> Result<Option<SpatialAttitude>, SolutionError> {
+    let error = |key: &str, message: String| SolutionError::Format {
+        path: path.into(),
+        key: key.into(),
+        message,
+    };
+    let name = solution.trajectory.attitude.as_str();
+    let width = solution
+        .trajectory
+        .base_attitude
+        .first()
+        .map_or(0, Vec::len);
+    let (found, expected) = match name {
+        "angle" => (None, 1),
+        // Files that do not say.
+        "" if width == 3 => (Some(SpatialAttitude::RollPitchYaw), 3),
+        "" => (None, 1),
+        name => {
+            let found = SpatialAttitude::ALL.into_iter().find(|a| a.name() == name);
+            let found = found.ok_or_else(|| error("trajectory.attitude", format!("{name:?}")))?;
+            (Some(found), found.count())
+        }
+    };
+    if width == expected {
+        return Ok(found);
+    }
+    let message = format!("{width} values a row do not make an attitude, {expected} do");
+    Err(error("trajectory.base_attitude", message))
 }

@@ -1,65 +1,93 @@
 //! A saved solution as the start of a new plan.
 
-use super::read::{SolutionError, discretization, read_solution};
-use super::{Iterate, Solution};
+use super::provenance::fingerprint;
+use super::read::{SolutionError, description, discretization, fits, read_solution, untouched};
+use super::{Iterate, Provenance};
+use crate::config::ProblemFile;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::nlp;
 use crate::problem::Problem;
 use crate::refine::Start;
 use crate::transcription::Discretization;
-use std::path::Path;
+use std::fmt;
+use std::path::{Path, PathBuf};
 
-/// Reads a `solution.json` as a start for `problem`: mesh, states, controls and multipliers.
+/// A saved solution as the start of a new plan.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct WarmStart {
+    /// Mesh, states, controls and multipliers.
+    pub start: Start,
+    /// Set where it was planned for another robot file.
+    pub other_robot: Option<OtherRobot>,
+}
+
+/// A start that was planned for another robot file than that of the problem, with as many joints.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct OtherRobot {
+    /// The solution.
+    pub solution: PathBuf,
+    /// Path of the robot it was planned for, and its SHA-256.
+    pub planned_for: [String; 2],
+    /// The same of the problem's robot.
+    pub robot: [String; 2],
+}
+
+impl fmt::Display for OtherRobot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |[path, hash]: &[String; 2]| {
+            let short: String = hash.chars().take(8).collect();
+            format!("{path} (SHA-256 {short}…)")
+        };
+        write!(
+            f,
+            "{}: planned for another robot, {}, than {}; its motion is taken as a start all the \
+             same, since its joints are as many",
+            self.solution.display(),
+            name(&self.planned_for),
+            name(&self.robot)
+        )
+    }
+}
+
+/// Reads a `solution.json` as a start for the problem in `file`.
 ///
 /// A base attitude in another description than the problem's is converted; the multipliers, which
 /// belong to other variables, are left behind then.
 ///
 /// # Errors
-/// [`SolutionError`]. Whether it fits the problem otherwise is seen when that is planned.
-pub fn read_warm_start(path: &Path, problem: &Problem) -> Result<Start, SolutionError> {
+/// [`SolutionError`], a start for a robot with other joints included.
+pub fn read_warm_start(path: &Path, file: &ProblemFile) -> Result<WarmStart, SolutionError> {
+    let problem = &file.problem;
     let solution = read_solution(path)?;
     let trajectory = discretization(path, &solution)?;
-    match description(path, &solution)? {
-        Some(found) if problem.robot.plane().is_none() && found != problem.attitude => Ok(Start {
+    let kept = &solution.provenance;
+    untouched(path, kept)?;
+    let found = description(path, &solution)?;
+    fits(path, &solution, problem, found)?;
+    let other_robot = other_robot(path, kept, file);
+    let start = match found {
+        Some(found) if found != problem.attitude => Start {
             trajectory: converted(&trajectory, found, problem),
             iterate: None,
-        }),
-        _ => Ok(Start {
+        },
+        _ => Start {
             trajectory,
             iterate: solution.iterate.map(iterate),
-        }),
-    }
+        },
+    };
+    Ok(WarmStart { start, other_robot })
 }
 
-/// How the base attitude of `solution` is described; `None` for one angle.
-fn description(path: &Path, solution: &Solution) -> Result<Option<SpatialAttitude>, SolutionError> {
-    let error = |key: &str, message: String| SolutionError::Format {
-        path: path.into(),
-        key: key.into(),
-        message,
-    };
-    let name = solution.trajectory.attitude.as_str();
-    let width = solution
-        .trajectory
-        .base_attitude
-        .first()
-        .map_or(0, Vec::len);
-    let (found, expected) = match name {
-        "angle" => (None, 1),
-        // Files that do not say.
-        "" if width == 3 => (Some(SpatialAttitude::RollPitchYaw), 3),
-        "" => (None, 1),
-        name => {
-            let found = SpatialAttitude::ALL.into_iter().find(|a| a.name() == name);
-            let found = found.ok_or_else(|| error("trajectory.attitude", format!("{name:?}")))?;
-            (Some(found), found.count())
-        }
-    };
-    if width == expected {
-        return Ok(found);
-    }
-    let message = format!("{width} values a row do not make an attitude, {expected} do");
-    Err(error("trajectory.base_attitude", message))
+/// A word where the robot's text is another.
+fn other_robot(path: &Path, kept: &Provenance, file: &ProblemFile) -> Option<OtherRobot> {
+    let own = fingerprint(&file.robot.text);
+    (kept.robot_sha256 != own).then(|| OtherRobot {
+        solution: path.into(),
+        planned_for: [kept.robot.path.clone(), kept.robot_sha256.clone()],
+        robot: [file.robot.path.clone(), own],
+    })
 }
 
 /// `trajectory` with its base attitude described as in `problem` instead of by `from`.

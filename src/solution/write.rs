@@ -17,7 +17,10 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
         status: plan.status,
         method: plan.method.name().into(),
         objective: plan.objective,
-        cost_terms: cost_terms(plan),
+        cost_terms: cost_terms(
+            &plan.cost_terms,
+            plan.trajectory.attitude.is_some_and(|by| !by.is_angles()),
+        ),
         tolerance: plan.tolerance,
         max_error: plan.max_error,
         points: mesh.points(),
@@ -29,7 +32,7 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
         },
         trajectory: trajectory(&plan.trajectory),
         metrics: metrics(&plan.metrics),
-        goals: plan.goals.iter().map(goal).collect(),
+        goals: goals(&plan.goals),
         verification: plan.verification.as_ref().map(verification),
         diagnosis: plan.diagnosis.as_ref().map(diagnosis),
         warnings: plan.warnings.clone(),
@@ -39,11 +42,11 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
     }
 }
 
-/// The terms of the cost; the blocks of the matrix Λ as one.
-fn cost_terms(plan: &Plan) -> Vec<CostTerm> {
-    let rotation = plan.trajectory.attitude.is_some_and(|by| !by.is_angles());
+/// The terms of the cost; the blocks of the matrix Λ as one. `rotation` where the attitude is
+/// measured by the rotation angle.
+pub(super) fn cost_terms(terms: &system::CostTerms, rotation: bool) -> Vec<CostTerm> {
     let mut found: Vec<CostTerm> = Vec::new();
-    for term in &plan.cost_terms.terms {
+    for term in &terms.terms {
         let key = term.id.key();
         match found.iter_mut().find(|known| known.key == key) {
             Some(known) => known.value += term.value,
@@ -71,7 +74,7 @@ fn iteration(record: &Record) -> Iteration {
     }
 }
 
-fn trajectory(planned: &system::Trajectory) -> Trajectory {
+pub(super) fn trajectory(planned: &system::Trajectory) -> Trajectory {
     let system::Trajectory {
         t,
         attitude,
@@ -96,7 +99,7 @@ fn trajectory(planned: &system::Trajectory) -> Trajectory {
     }
 }
 
-fn metrics(found: &system::Metrics) -> Metrics {
+pub(super) fn metrics(found: &system::Metrics) -> Metrics {
     Metrics {
         max_base_attitude: found.max_base_attitude,
         final_base_attitude: found.final_base_attitude,
@@ -107,13 +110,14 @@ fn metrics(found: &system::Metrics) -> Metrics {
     }
 }
 
-fn goal(found: &system::GoalError) -> Goal {
-    Goal {
+pub(super) fn goals(found: &[system::GoalError]) -> Vec<Goal> {
+    let goal = |found: &system::GoalError| Goal {
         key: found.key.clone(),
         t: found.t,
         distance: found.distance,
         angle: found.angle,
-    }
+    };
+    found.iter().map(goal).collect()
 }
 
 pub(crate) fn verification(found: &verify::Verification) -> Verification {

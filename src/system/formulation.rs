@@ -2,7 +2,7 @@
 
 use super::plant::Plant;
 use super::rows::{
-    BoundId, Component, EndBlock, EndRows, PathBlock, PathRows, Row, WayPointRows, held,
+    BoundId, Component, EndBlock, EndRows, PathBlock, PathRows, Row, WayPointRows, held, of_joint,
 };
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
@@ -99,7 +99,7 @@ fn joint_rows(
             _ => Component::Joint(j),
         };
         let id = BoundId::new(limit, component);
-        let name = format!("joint {} {what}", j + 1);
+        let name = of_joint(what, &joints[j]);
         Row::new(id, unit(joints[j].kind), name, *bounds)
     })
     .collect()

@@ -9,6 +9,7 @@
 //! | `pose_function` | derivatives of what depends on the attitude and the mass centre |
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
+//! | `motion`, `metrics` | a motion over time, its figures, the base angle |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
 
 mod cost;
@@ -23,6 +24,7 @@ mod guess;
 mod instant;
 mod limits;
 mod linearization;
+mod metrics;
 mod motion;
 mod plant;
 mod pose_function;
@@ -39,6 +41,7 @@ pub use free_floating::FreeFloating;
 pub use goal_errors::{GoalError, goal_errors};
 pub use guess::through;
 pub use limits::ElasticLimit;
+pub use metrics::{at_nodes, base_angles, base_displacements, finely, metrics_of};
 pub use motion::{Metrics, Trajectory};
 pub use row_values::cost_terms;
 pub use rows::{BoundId, Component, Measure, Row};
@@ -48,6 +51,7 @@ pub use trajectory::{limited_angles, resampled};
 pub(crate) use dispatch::with_system;
 pub(crate) use goal_errors::goal_errors_in;
 pub(crate) use guess::{JointPath, along};
+pub(crate) use metrics::metrics;
 pub(crate) use quintic::quintic;
-pub(crate) use rows::ROTATION_ANGLE;
-pub(crate) use trajectory::{metrics, trajectory};
+pub(crate) use rows::{ROTATION_ANGLE, of_joint};
+pub(crate) use trajectory::trajectory;

@@ -30,7 +30,7 @@ pub struct Trajectory {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Metrics {
-    /// Largest magnitude of any base attitude angle, or else of the rotation angle, rad.
+    /// Largest base angle, rad: of the rotation out of the axes the attitude is counted from.
     pub max_base_attitude: f64,
     /// The same at t_f, rad.
     pub final_base_attitude: f64,

@@ -1,14 +1,13 @@
-//! The planned motion at the nodes, and its figures.
+//! The planned motion at the nodes.
 
 use super::dispatch::{System, with_system};
 use super::free_floating::FreeFloating;
-use super::motion::{Metrics, Trajectory};
+use super::motion::Trajectory;
 use super::torques::torques;
 use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
-use crate::largest::largest;
 use crate::ocp::Ocp;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
@@ -73,29 +72,6 @@ pub fn limited_angles(trajectory: &Trajectory) -> Vec<Vec<f64>> {
             .map(|eta| vec![attitude.squared_rotation_angle::<f64>(eta).sqrt()])
             .collect(),
         _ => rows.cloned().collect(),
-    }
-}
-
-/// Figures of a trajectory.
-pub(crate) fn metrics(trajectory: &Trajectory) -> Metrics {
-    let peak = |rows: &[Vec<f64>]| largest(rows.iter().flatten().map(|value| value.abs()));
-    let distance = |row: &[f64]| {
-        let start = trajectory.base_position.first().map_or(row, |first| first);
-        row.iter()
-            .zip(start)
-            .map(|(a, b)| (a - b).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
-    let last = |rows: &[Vec<f64>]| rows.last().cloned().unwrap_or_default();
-    let turned = limited_angles(trajectory);
-    Metrics {
-        max_base_attitude: peak(&turned),
-        final_base_attitude: peak(&[last(&turned)]),
-        max_base_displacement: largest(trajectory.base_position.iter().map(|row| distance(row))),
-        final_base_displacement: distance(&last(&trajectory.base_position)),
-        peak_joint_velocity: peak(&trajectory.joint_velocity),
-        peak_joint_torque: peak(&trajectory.joint_torque),
     }
 }
 

@@ -144,12 +144,13 @@ impl Pass for Forward<'_> {
             &mut found.max_base_position_drift,
             (vector(y, POSITION) - position).norm(),
         );
-        for (actual, planned) in y[JOINTS..]
-            .iter()
-            .zip(self.planned.joints(k))
-            .take(self.u.len())
-        {
-            raise(&mut found.max_joint_drift, (actual - planned).abs());
+        let joints = y[JOINTS..].iter().zip(self.planned.joints(k));
+        for (joint, (actual, planned)) in joints.take(self.u.len()).enumerate() {
+            let drift = (actual - planned).abs();
+            if drift > found.max_joint_drift {
+                found.worst_joint = joint;
+            }
+            raise(&mut found.max_joint_drift, drift);
         }
     }
 }

@@ -13,6 +13,8 @@ pub struct Verification {
     pub max_base_position_drift: f64,
     /// Joint positions, rad or m.
     pub max_joint_drift: f64,
+    /// The joint that drifts by that much.
+    pub worst_joint: usize,
     /// Base attitude where the joints are made to follow the planned path, rad.
     pub replay_base_attitude_drift: f64,
     /// Base position where the joints are made to follow the planned path, m.

@@ -4,7 +4,7 @@ use crate::program::{Folder, PROBLEM};
 use serde_json::Value;
 
 /// `PROBLEM` with a forearm off the plane, so that the robot moves in space.
-fn folder_in_space(base: &str) -> Folder {
+pub fn folder_in_space(base: &str) -> Folder {
     let folder = Folder::new(&PROBLEM.replace("[task]", &format!("{base}\n[task]")));
     let robot = folder.read("robot.toml");
     let off = robot.replace("com = [0.35, 0.0, 0.0]", "com = [0.35, 0.0, 0.02]");

@@ -1,5 +1,6 @@
 //! A word about limits that are exceeded between the points of the mesh.
 
+use crate::digits::digits;
 use crate::dynamics::space::Space;
 use crate::ocp::Limited;
 use crate::problem::LimitId;
@@ -17,10 +18,11 @@ pub(super) fn warnings<Sp: Space>(
             Bounded::Control(j) => Limited::Control(j),
             Bounded::Path(p) => Limited::Path(p),
         });
+        let time = digits(violation.t, 3, 2);
         if violation.value.is_nan() {
             return format!(
-                "{} ({}) is not a number between the points of the mesh, at {:.3} s",
-                row.id.limit, row.quantity.name, violation.t
+                "{} ({}) is not a number between the points of the mesh, at {time} s",
+                row.id.limit, row.quantity.name
             );
         }
         let excess = row
@@ -41,11 +43,10 @@ pub(super) fn warnings<Sp: Space>(
         };
         let (factor, unit) = row.unit.readable();
         format!(
-            "{} ({}) is exceeded by {:.2e}{unit} between the points of the mesh, at {:.3} s{helps}",
+            "{} ({}) is exceeded by {:.2e}{unit} between the points of the mesh, at {time} s{helps}",
             row.id.limit,
             row.quantity.name,
-            excess * factor,
-            violation.t
+            excess * factor
         )
     };
     violations.iter().map(sentence).collect()

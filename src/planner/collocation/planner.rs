@@ -250,7 +250,7 @@ fn assemble<Sp: Space>(
         cost_terms: system.cost_terms(&outcome.trajectory),
         tolerance: problem.mesh.tolerance,
         max_error,
-        metrics: metrics(&trajectory),
+        metrics: metrics(system, &outcome.trajectory, &trajectory),
         goals: goal_errors_in(system, &outcome.trajectory),
         timing: timing(&outcome.statistics, began.elapsed()),
         linear_solver: linear_solver(solver, &outcome.statistics),

@@ -14,7 +14,7 @@ use crate::planner::words::sentence;
 use crate::planner::{Diagnosis, LimitFinding, Method, Plan, PlanError, Starts, Status, Timing};
 use crate::problem::{LimitId, Problem, ProblemError, Unit};
 use crate::refine::{Errors, midpoint_errors};
-use crate::system::{Component, FreeFloating, goal_errors_in, metrics, trajectory};
+use crate::system::{Component, FreeFloating, goal_errors_in, metrics, of_joint, trajectory};
 use crate::transcription::Discretization;
 use std::time::Instant;
 
@@ -122,7 +122,7 @@ pub(super) fn assemble<Sp: Space>(
         iterations: Vec::new(),
         iterate: Iterate::default(),
         linear_solver: "none".into(),
-        metrics: metrics(&trajectory),
+        metrics: metrics(system, &discretization, &trajectory),
         goals: goal_errors_in(system, &discretization),
         trajectory,
         discretization,
@@ -149,7 +149,7 @@ pub(super) fn goal_missed(problem: &Problem, plan: &mut Plan, there: f64, why: S
         .map(|(j, (&q, &goal))| LimitFinding {
             limit: LimitId::FinalJoints,
             component: Component::Joint(j),
-            name: format!("joint {} position", j + 1),
+            name: of_joint("position", &joints[j]),
             unit: Unit::position(joints[j].kind),
             bound: Interval::fixed(goal),
             excess: (q - goal).abs(),

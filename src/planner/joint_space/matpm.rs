@@ -9,6 +9,7 @@
 //! Derived in docs/algorithms.md#matpm.
 
 use super::joint_motion::{JointMotion, assemble, duration, rest_to_rest};
+use crate::digits::digits;
 use crate::ocp::Interval;
 use crate::planner::{Diagnosis, Method, Plan, PlanError};
 use crate::problem::{LimitId, Problem};
@@ -54,11 +55,11 @@ fn too_fast(problem: &Problem, motion: &BangCruiseBang, diagnosis: &mut Diagnosi
             };
         }
         sentences.push(format!(
-            "joint '{}' cannot be there in {} s: that takes a rate above {needed:.4}, and {:.4} is \
-             allowed",
+            "joint '{}' cannot be there in {} s: that takes a rate above {}, and {} is allowed",
             joints[j].name,
             motion.duration(),
-            joint.rate
+            digits(needed, 4, 3),
+            digits(joint.rate, 4, 3)
         ));
     }
     if !sentences.is_empty() {

@@ -1,17 +1,14 @@
 //! The planned motion over time with its bounds, one chart a quantity.
 
-use crate::collocation::Mesh;
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
 use crate::ocp::Interval;
 use crate::plot::{Axis, Chart, Colour, Figure, Marker, Series, Stroke, Width};
 use crate::problem::Problem;
 use crate::solution::{Iteration, Solution};
-use crate::system::{Trajectory, limited_angles, resampled};
+use crate::system::{Trajectory, base_angles, finely, limited_angles};
 use crate::transcription::Discretization;
 
-/// Even segments that a curve is drawn with, beside those of its mesh.
-const SEGMENTS: usize = 100;
 /// Part of the duration at its end over which bounds of the end alone are drawn.
 const END: f64 = 0.05;
 
@@ -30,7 +27,7 @@ pub(super) fn panels(
     plan: &Discretization,
     straight: Option<&Trajectory>,
 ) -> Vec<Panel> {
-    let Some(rows) = smooth(problem, plan) else {
+    let Some(rows) = finely(problem, plan) else {
         return Vec::new();
     };
     let inner = plan.mesh.breakpoints();
@@ -48,25 +45,6 @@ pub(super) fn panels(
     panels.push(points(plan));
     panels.extend(errors(solution));
     panels
-}
-
-/// The rows at the nodes of a mesh on which curves are smooth and layers are seen.
-fn smooth(problem: &Problem, plan: &Discretization) -> Option<Trajectory> {
-    let even = (1..SEGMENTS).map(|k| k as f64 / SEGMENTS as f64);
-    let mut cuts: Vec<f64> = plan
-        .mesh
-        .breakpoints()
-        .iter()
-        .copied()
-        .chain(even)
-        .collect();
-    cuts.sort_by(f64::total_cmp);
-    // The end stays what it is.
-    cuts.dedup_by(|next, last| *next - *last < 1e-9);
-    let last = cuts.len() - 1;
-    cuts[last] = 1.0;
-    let mesh = Mesh::new(cuts, &vec![2; last]).ok()?;
-    Some(resampled(problem, plan, mesh))
 }
 
 struct Drawing<'a> {
@@ -107,6 +85,14 @@ impl Drawing<'_> {
             &limited_angles(self.rows),
             &limits.base_attitude,
         );
+        if names.len() > 1 {
+            let angles: Vec<f64> = base_angles(self.rows)
+                .iter()
+                .map(|angle| subject.factor * angle)
+                .collect();
+            let line = Series::line("base angle", &self.rows.t, &angles);
+            chart = chart.series(line.colour(Colour::Grey));
+        }
         let last = self.rows.t.last().copied().unwrap_or(0.0);
         let mut label = "bound at the end";
         for bound in distinct(&limits.final_base_attitude) {

@@ -5,7 +5,7 @@ mod charts;
 mod scene;
 mod texts;
 
-use super::format::time;
+use super::format::{cost, time};
 use crate::collocation::Mesh;
 use crate::ocp::Interval;
 use crate::planner::{Method, Status};
@@ -54,7 +54,7 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
             body {
                 header {
                     h1 { (solution.name) " " span class={ "status " (status.name()) } { (status.words()) } }
-                    p { (texts::lead(solution, &scene)) }
+                    p { (texts::lead(solution, straight)) }
                 }
                 @if let Some(diagnosis) = &solution.diagnosis {
                     section.notice { h2 { "Why there is no solution" } p { (diagnosis.summary) } }
@@ -189,7 +189,11 @@ fn history(solution: &Solution) -> Markup {
                     td { (record.segments) }
                     td { (record.points) }
                     td { (format!("{:.3e}", record.max_error)) }
-                    td { (format!("{:.9}", record.objective)) }
+                    td {
+                        // J of meshes without a solution is the cost of nothing.
+                        @if solution.status == Status::Infeasible { "–" }
+                        @else { (cost(record.objective)) }
+                    }
                     td { (record.nlp_iterations) }
                     td { (record.nlp_status) }
                     td { (time(record.seconds)) }

@@ -144,8 +144,14 @@
     if (!scene.planar) items.sort((a, b) => a.depth - b.depth);
     items.forEach((item) => item.paint());
     const number = (value, digits) => (Object.is(+value.toFixed(digits), -0) ? 0 : value).toFixed(digits).replace("-", "−");
+    // As many decimals as the largest value needs.
+    const decimals = (values, least) => {
+      const largest = Math.max(...values.map(Math.abs));
+      return largest > 0 ? Math.min(20, Math.max(least, 1 - Math.floor(Math.log10(largest)))) : least;
+    };
+    const now = (values, least) => number(between(values, at), decimals(values, least));
     stage.figures.textContent =
-      `base turned ${number(between(motion.turned, at), 1)}°, shifted ${number(between(motion.shifted, at), 2)} cm`;
+      `base turned ${now(motion.turned, 1)}°, shifted ${now(motion.shifted, 2)} cm`;
   }
 
   let part = 0, playing = false, last = null;

@@ -3,7 +3,7 @@
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::dynamics::{Body, Model};
 use crate::problem::{KeepOut, Problem, Solid};
-use crate::system::Trajectory;
+use crate::system::{Trajectory, base_angles};
 use crate::verify::bodies::{BaseMotion, Bodies, orientation};
 use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
 use serde::Serialize;
@@ -40,7 +40,7 @@ struct Playback {
     title: String,
     /// Points of every frame, three coordinates each, m.
     frames: Vec<Vec<f64>>,
-    /// Rotation of the base from its start, deg; signed in the plane.
+    /// The base angle, deg; signed in the plane.
     turned: Vec<f64>,
     /// Distance of the base from its start, cm.
     shifted: Vec<f64>,
@@ -80,17 +80,6 @@ impl Scene {
             boxes: skeleton.boxes.clone(),
             motions,
         }
-    }
-
-    /// The largest turn of the base in one of the motions and its turn at the end, and the same of
-    /// its shift; deg and cm.
-    pub fn extremes(&self, motion: usize) -> Option<[[f64; 2]; 2]> {
-        let motion = self.motions.get(motion)?;
-        let of = |values: &[f64]| {
-            let most = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-            Some([most, values.last()?.abs()])
-        };
-        Some([of(&motion.turned)?, of(&motion.shifted)?])
     }
 
     /// Whether anything is kept apart.
@@ -207,15 +196,15 @@ impl<'a> Skeleton<'a> {
             turned: Vec::with_capacity(rows.t.len()),
             shifted: Vec::with_capacity(rows.t.len()),
         };
-        for k in 0..rows.t.len() {
+        for (k, angle) in base_angles(rows).into_iter().enumerate() {
             let pose = Pose::of(self, rows, k);
             let q = &rows.joint_position[k];
             let base = BaseMotion::placed(pose.position, pose.orientation);
             bodies.update(self.robot, &base, q, &vec![0.0; q.len()]);
             motion.frames.push(self.points(&base, &bodies));
             let turn = match self.robot.plane() {
-                Some(_) => rows.base_attitude[k][0] - rows.base_attitude[0][0],
-                None => start.orientation.angle_to(&pose.orientation),
+                Some(_) => rows.base_attitude[k][0],
+                None => angle,
             };
             let shift = (pose.position - start.position).norm();
             motion.turned.push(rounded(turn.to_degrees()));
@@ -239,9 +228,9 @@ impl<'a> Skeleton<'a> {
     }
 }
 
-/// Three decimals, which is what is shown.
+/// Six digits, more than are shown.
 fn rounded(value: f64) -> f64 {
-    (value * 1e3).round() / 1e3 + 0.0
+    format!("{value:.5e}").parse().unwrap_or(value) + 0.0
 }
 
 /// Where the base is, in inertial axes.

@@ -1,12 +1,13 @@
 //! What the page says in words and numbers.
 
-use super::scene::Scene;
+use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::planner::Status;
 use crate::problem::Problem;
-use crate::report::format::{centimetres, degrees, shares, time};
+use crate::report::format::{OF_RELAXED, centimetres, cost, degrees, gap, shares, time};
 use crate::report::peaks::Peaks;
 use crate::solution::{CostTerm, Solution, Verification};
+use crate::system::{Trajectory, base_angles, base_displacements};
 
 /// A fact: what, how much, and where it needs one, what that means.
 pub(super) struct Fact {
@@ -26,7 +27,7 @@ impl Fact {
 }
 
 /// What came of it, in a few sentences.
-pub(super) fn lead(solution: &Solution, scene: &Scene) -> String {
+pub(super) fn lead(solution: &Solution, straight: Option<&Trajectory>) -> String {
     let caution = match solution.status {
         Status::Infeasible => {
             "This problem has no solution; the motion below does not keep its limits. "
@@ -35,18 +36,23 @@ pub(super) fn lead(solution: &Solution, scene: &Scene) -> String {
         Status::Interrupted => "This is the best trajectory until it was interrupted. ",
         Status::Solved => "",
     };
-    let planned = scene.extremes(0).map(|[[most, turned], [_, shifted]]| {
-        format!(
-            "The base turns by at most {most:.1}° on its way and ends {turned:.1}° and \
-             {shifted:.1} cm from where it started."
-        )
+    let found = &solution.metrics;
+    let planned = format!(
+        "The base is turned by at most {} on its way, and ends turned by {} and {} from where it \
+         started.",
+        degrees(found.max_base_attitude),
+        degrees(found.final_base_attitude),
+        centimetres(found.final_base_displacement)
+    );
+    let ends = straight.and_then(|motion| {
+        let turned = base_angles(motion).last().copied()?;
+        Some((turned, base_displacements(motion).last().copied()?))
     });
-    let straight = scene.extremes(1).map(|[[_, turned], [_, shifted]]| {
-        format!(
-            " Along the straight joint path it would end {turned:.1}° and {shifted:.1} cm away."
-        )
+    let straight = ends.map(|(turned, moved)| {
+        let (turned, moved) = (degrees(turned), centimetres(moved));
+        format!(" Along the straight joint path it would end turned by {turned} and {moved} away.")
     });
-    [Some(caution.into()), planned, straight]
+    [Some(caution.into()), Some(planned), straight]
         .into_iter()
         .flatten()
         .collect()
@@ -58,12 +64,11 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
     let found = &solution.metrics;
     let last = solution.trajectory.t.last().copied().unwrap_or(0.0);
     let mut facts = vec![
-        fact("duration", format!("{last:.6} s").replace(".000000", "")),
-        Fact::new(
-            "cost J",
-            format!("{:.9}", solution.objective),
-            &terms(solution),
+        fact(
+            "duration",
+            format!("{} s", digits(last, 6, 3)).replace(".000000", ""),
         ),
+        Fact::new("cost J", cost(solution.objective), &terms(solution)),
         fact(
             "mesh",
             format!("{} segments, {} points", solution.segments, solution.points),
@@ -71,7 +76,7 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
         fact(
             "base attitude",
             format!(
-                "at the nodes {} at most, {} at the end",
+                "{} at most, {} at the end",
                 degrees(found.max_base_attitude),
                 degrees(found.final_base_attitude)
             ),
@@ -79,7 +84,7 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
         fact(
             "base displacement",
             format!(
-                "at the nodes {} at most, {} at the end",
+                "{} at most, {} at the end",
                 centimetres(found.max_base_displacement),
                 centimetres(found.final_base_displacement)
             ),
@@ -97,13 +102,19 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
     facts
 }
 
-/// The cost term by term; nothing where there is one term alone.
+/// What the cost is the cost of where no plan is, and its terms where there are several.
 fn terms(solution: &Solution) -> String {
     let term = |term: &CostTerm| format!("{:.4e} for {}", term.value, term.formula);
-    match &solution.cost_terms[..] {
-        [] | [_] => String::new(),
-        terms => terms.iter().map(term).collect::<Vec<_>>().join(", "),
-    }
+    let of = (solution.status == Status::Infeasible).then(|| OF_RELAXED.to_string());
+    let terms = match &solution.cost_terms[..] {
+        [] | [_] => None,
+        terms => Some(terms.iter().map(term).collect::<Vec<_>>().join(", ")),
+    };
+    [of, terms]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(": ")
 }
 
 /// Why the numbers can be trusted, or what has not been checked.
@@ -121,7 +132,8 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
                 "{:.2e}, {within} the tolerance {:e}",
                 solution.max_error, solution.tolerance
             ),
-            "largest defect of the equations of motion midway between nodes, eq. (28) of the paper",
+            "when it was planned: the largest defect of the equations of motion midway between nodes, \
+             eq. (28) of the paper",
         ));
     }
     if let Some(last) = solution.iterations.last() {
@@ -137,7 +149,7 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
             } else {
                 "no limit is exceeded".into()
             },
-            "limits hold at the nodes; here they were looked at on a finer grid",
+            "when it was planned: limits hold at the nodes, and were looked at on a finer grid",
         ));
     }
     match &solution.verification {
@@ -153,7 +165,7 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
         let gaps: Vec<String> = gaps.into_iter().flatten().collect();
         facts.push(Fact::new(
             &goal.key,
-            format!("{} off at {:.3} s", gaps.join(" and "), goal.t),
+            format!("{} off at {} s", gaps.join(" and "), digits(goal.t, 3, 2)),
             "distance and angle between the end effector and its goal",
         ));
     }
@@ -163,17 +175,17 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
 fn verification(found: &Verification, problem: &Problem) -> Vec<Fact> {
     let turns = |joint: &crate::dynamics::Joint| joint.kind == JointKind::Revolute;
     let joints = if problem.robot.joints().iter().all(turns) {
-        format!("{:.1e}°", found.max_joint_drift.to_degrees())
+        format!("{}°", gap(found.max_joint_drift.to_degrees()))
     } else {
-        format!("{:.1e} rad or m", found.max_joint_drift)
+        format!("{} rad or m", gap(found.max_joint_drift))
     };
     vec![
         Fact::new(
             "under its control",
             format!(
-                "base within {:.1e}° and {:.1e} cm, joints within {joints}",
-                found.max_base_attitude_drift.to_degrees(),
-                100.0 * found.max_base_position_drift
+                "base within {}° and {} cm, joints within {joints}",
+                gap(found.max_base_attitude_drift.to_degrees()),
+                gap(100.0 * found.max_base_position_drift)
             ),
             "the full, unreduced equations of motion of base and arm, integrated by an adaptive \
              method that shares no code with the planner, under the planned control",
@@ -181,9 +193,9 @@ fn verification(found: &Verification, problem: &Problem) -> Vec<Fact> {
         Fact::new(
             "along the planned joint path",
             format!(
-                "base within {:.1e}° and {:.1e} cm",
-                found.replay_base_attitude_drift.to_degrees(),
-                100.0 * found.replay_base_position_drift
+                "base within {}° and {} cm",
+                gap(found.replay_base_attitude_drift.to_degrees()),
+                gap(100.0 * found.replay_base_position_drift)
             ),
             "the same with the joints led along the plan, as a controller would",
         ),

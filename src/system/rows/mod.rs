@@ -17,6 +17,8 @@ mod way_point;
 
 pub use row::{BoundId, Component, Measure, Row};
 
+pub(crate) use row::of_joint;
+
 pub(crate) use block::{EndRows, PathRows};
 pub(crate) use end_effector::EndEffectorRows;
 pub(crate) use rotation_angle::{NAME as ROTATION_ANGLE, held};

@@ -1,5 +1,6 @@
 //! One bounded quantity: which limit it belongs to, its unit, and a length in that unit.
 
+use crate::dynamics::Joint;
 use crate::ocp::{Interval, Quantity};
 use crate::problem::{LimitId, Unit};
 
@@ -77,6 +78,11 @@ pub struct Row {
     pub measure: Measure,
     /// Name and bounds in the programme.
     pub quantity: Quantity,
+}
+
+/// What a person calls a quantity of `joint`: "rate of joint elbow".
+pub(crate) fn of_joint(what: &str, joint: &Joint) -> String {
+    format!("{what} of joint {}", joint.name)
 }
 
 /// Angles and what is made of them are of size one whatever their bounds; lengths and torques are

@@ -1,6 +1,6 @@
 //! Limits on the joint torques τ = Hu.
 
-use super::{BoundId, Component, PathRows, Row};
+use super::{BoundId, Component, PathRows, Row, of_joint};
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Space;
 use crate::problem::{LimitId, Problem, Unit};
@@ -17,8 +17,13 @@ impl TorqueRows {
         let bounds = &problem.limits.torque;
         let row = |(j, bounds)| {
             let id = BoundId::new(LimitId::Torque, Component::Joint(j));
-            let unit = Unit::effort(problem.robot.joints()[j].kind);
-            Row::new(id, unit, format!("joint {} torque", j + 1), bounds)
+            let joint = &problem.robot.joints()[j];
+            Row::new(
+                id,
+                Unit::effort(joint.kind),
+                of_joint("torque", joint),
+                bounds,
+            )
         };
         bounds
             .iter()

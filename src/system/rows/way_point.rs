@@ -1,7 +1,7 @@
 //! A way-point as the optimal control problem has it: bounds on the states there, and the rows of
 //! a goal for the end effector.
 
-use super::{BoundId, Component, EndEffectorRows, EndRows, Row};
+use super::{BoundId, Component, EndEffectorRows, EndRows, Row, of_joint};
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::ocp::{self, Interval};
@@ -41,12 +41,12 @@ pub(crate) fn way_point<Sp: Space>(
         row(Component::Attitude(i), Unit::Radian, name, None)
     });
     let positions = point.joints.iter().enumerate().map(|(j, &at)| {
-        let name = format!("joint {} position", j + 1);
+        let name = of_joint("position", &joints[j]);
         let unit = Unit::position(joints[j].kind);
         row(Component::Joint(j), unit, name, at)
     });
     let rates = point.joint_rates.iter().enumerate().map(|(j, &at)| {
-        let name = format!("joint {} rate", j + 1);
+        let name = of_joint("rate", &joints[j]);
         let unit = Unit::rate(joints[j].kind);
         row(Component::JointRate(j), unit, name, at)
     });

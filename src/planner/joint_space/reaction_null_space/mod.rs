@@ -16,6 +16,7 @@ mod search;
 
 use super::joint_motion::{JointMotion, THERE, assemble, duration, goal_missed, rest_to_rest};
 use crate::autodiff::Dual;
+use crate::digits::digits;
 use crate::dynamics::space::Space;
 use crate::dynamics::{Data, JointKind, Tree};
 use crate::planner::{Method, Plan, PlanError};
@@ -96,10 +97,10 @@ fn explanation<Sp: Space>(problem: &Problem, end: &End, reached: &[f64]) -> Stri
         (1.0, " rad or m")
     };
     let shown = |q: &[f64]| {
-        let values: Vec<String> = q.iter().map(|v| format!("{:.1}", factor * v)).collect();
+        let values: Vec<String> = q.iter().map(|v| digits(factor * v, 1, 2)).collect();
         format!("({}){unit}", values.join(", "))
     };
-    let away = format!("{:.2}{unit}", factor * distance(reached, goal));
+    let away = format!("{}{unit}", digits(factor * distance(reached, goal), 2, 2));
     let angles = match Sp::ANGLES {
         1 => "the one angle of the base".to_string(),
         count => format!("the {count} angles of the base"),
