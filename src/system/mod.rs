@@ -10,6 +10,7 @@
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
+//! | `impossible/` | what no motion can do, found before any solve |
 
 mod cost;
 mod derivatives;
@@ -20,6 +21,7 @@ mod free_floating;
 mod functions;
 mod goal_errors;
 mod guess;
+mod impossible;
 mod instant;
 mod limits;
 mod linearization;
@@ -38,6 +40,7 @@ pub use dispatch::System;
 pub use free_floating::FreeFloating;
 pub use goal_errors::{GoalError, goal_errors};
 pub use guess::through;
+pub use impossible::impossible;
 pub use limits::ElasticLimit;
 pub use motion::{Metrics, Trajectory};
 pub use row_values::cost_terms;
