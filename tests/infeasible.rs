@@ -4,8 +4,9 @@ mod problems;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
+use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{Status, plan};
+use ffsm_ipopt::planner::{Event, Planner, Status, plan};
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::reproduction::bounds::{Connection, Grid};
 use std::f64::consts::PI;
@@ -238,4 +239,22 @@ fn the_diagnosis_keeps_the_time_it_was_given() {
     assert_eq!(plan.iterations.len(), 1);
     let warned = plan.warnings.iter().any(|text| text.contains("time limit"));
     assert!(warned, "{:?}", plan.warnings);
+}
+
+#[test]
+fn too_few_iterations_are_no_reason_to_doubt_the_limits() {
+    let problem = problems::published()
+        .edited(|problem| problem.solver.max_iterations = 3)
+        .unwrap();
+    let mut asked = false;
+    let plan = Planner::new()
+        .plan_with(&problem, None, &mut |event| {
+            asked |= matches!(event, Event::Diagnosing { .. });
+            Control::Continue
+        })
+        .unwrap();
+    assert_eq!(plan.status, Status::NotConverged);
+    assert!(!asked, "no diagnosis");
+    let iterations: u32 = plan.iterations.iter().map(|mesh| mesh.nlp_iterations).sum();
+    assert_eq!(iterations, 3);
 }

@@ -56,6 +56,8 @@ pub enum Impossible {
         positions: [f64; 2],
         /// The limit that keeps it from being faster.
         limit: LimitId,
+        /// The largest rate there may be in that direction, rad/s or m/s; infinite for none.
+        rate: f64,
         /// The time that this takes at least, s.
         least: f64,
         /// The time there is at most, s.
@@ -148,14 +150,21 @@ impl Impossible {
                 between: [from, to],
                 positions: [a, b],
                 limit,
+                rate,
                 available,
                 ..
-            } => format!(
-                "{} s from {from} to {to}, too short for joint '{joint}' to go {} {unit} within \
-                 {limit}",
-                digits(*available),
-                digits(b - a)
-            ),
+            } => {
+                let within = match limit {
+                    LimitId::JointVelocity => format!("{limit}, {} {unit}/s", digits(*rate)),
+                    limit => limit.to_string(),
+                };
+                format!(
+                    "{} s from {from} to {to}, too short for joint '{joint}' to go {} {unit} \
+                     within {within}",
+                    digits(*available),
+                    digits(b - a)
+                )
+            }
             Self::TooShortToStop {
                 limit, available, ..
             } => format!(

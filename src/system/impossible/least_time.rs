@@ -203,6 +203,7 @@ impl Leg {
             between: self.stops.map(|stop| stops.place(stop)),
             positions: self.positions,
             limit,
+            rate: self.most(problem),
             least: part * least,
             available: part * duration,
         })
@@ -212,9 +213,8 @@ impl Leg {
     /// gone in that; infinite where no time is enough.
     fn least(&self, problem: &Problem, stops: &Stops, push: Option<&Push>) -> f64 {
         let way = self.positions[1] - self.positions[0];
-        let bound = problem.limits.joint_velocity[self.joint];
-        let most = if way > 0.0 { bound.upper } else { -bound.lower };
-        let gone = |duration: f64| self.farthest(duration, most.max(0.0), stops, push);
+        let most = self.most(problem);
+        let gone = |duration: f64| self.farthest(duration, most, stops, push);
         let enough = |duration: f64| gone(duration) * (1.0 + ROOM) >= way.abs();
         let available = problem.task.duration.upper;
         if way == 0.0 || enough(available) {
@@ -232,6 +232,15 @@ impl Leg {
             bracket[usize::from(enough(middle))] = middle;
         }
         bracket[1]
+    }
+
+    /// The largest rate in the direction of the way.
+    fn most(&self, problem: &Problem) -> f64 {
+        let bound = problem.limits.joint_velocity[self.joint];
+        match self.positions[1] > self.positions[0] {
+            true => bound.upper.max(0.0),
+            false => (-bound.lower).max(0.0),
+        }
     }
 
     /// The farthest that the joint gets on this leg of a task of `duration` seconds, at a rate of at
