@@ -2,7 +2,7 @@
 
 mod problems;
 
-use ffsm_ipopt::config::ProblemFile;
+use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::{Model, Placement};
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Status, plan};
@@ -30,8 +30,8 @@ fn nothing_is_found_in_what_is_shipped() {
             .extension()
             .is_some_and(|extension| extension == "toml")
         {
-            let name = path.file_stem().unwrap().to_str().unwrap();
-            assert_none(&impossible(&ProblemFile::shipped(name).unwrap().problem));
+            let file = ProblemFile::load(&path, &Overrides::default()).unwrap();
+            assert_none(&impossible(&file.problem));
         }
     }
     for problem in [problems::published(), problems::smooth()] {
