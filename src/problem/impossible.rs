@@ -154,8 +154,11 @@ impl Impossible {
                 available,
                 ..
             } => {
+                let speed = format!("{}, {} {unit}/s", LimitId::JointVelocity, digits(*rate));
                 let within = match limit {
-                    LimitId::JointVelocity => format!("{limit}, {} {unit}/s", digits(*rate)),
+                    LimitId::JointVelocity => speed,
+                    // Acceleration to that rate.
+                    limit if rate.is_finite() => format!("{limit} and {speed}"),
                     limit => limit.to_string(),
                 };
                 format!(

@@ -8,7 +8,8 @@ fn too_little_time() {
     assert_eq!(
         problem("duration = 20.0", "duration = 1.1"),
         "case.toml:6: task.duration: 1.1 s from the start to the goal, too short for joint \
-         'elbow' to go 1 rad within limits.joint_velocity, 0.9 rad/s; expected at least 1.11111 s"
+         'elbow' to go 1 rad within limits.control and limits.joint_velocity, 0.9 rad/s; expected \
+         at least 1.13361 s"
     );
     let slow = ["--set", "limits.joint_velocity=0.02"];
     let slow = complaint(&Folder::new(PROBLEM), &slow);
