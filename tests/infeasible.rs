@@ -1,12 +1,14 @@
 //! The published case is infeasible: the diagnosis against dynamic programming.
 
 mod problems;
+mod trees;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
+use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::floor::{Certainty, Connection, Grid};
-use ffsm_ipopt::planner::{Status, plan};
+use ffsm_ipopt::planner::{Event, Planner, Status, plan};
 use ffsm_ipopt::problem::Problem;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -302,6 +304,47 @@ fn the_diagnosis_keeps_the_time_it_was_given() {
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::NotConverged);
     assert_eq!(plan.iterations.len(), 1);
+    let warned = plan.warnings.iter().any(|text| text.contains("time limit"));
+    assert!(warned, "{:?}", plan.warnings);
+}
+
+#[test]
+fn too_few_iterations_are_no_reason_to_doubt_the_limits() {
+    let problem = problems::published()
+        .edited(|problem| problem.solver.max_iterations = 3)
+        .unwrap();
+    let mut asked = false;
+    let plan = Planner::new()
+        .plan_with(&problem, None, &mut |event| {
+            asked |= matches!(event, Event::Diagnosing { .. });
+            Control::Continue
+        })
+        .unwrap();
+    assert_eq!(plan.status, Status::NotConverged);
+    assert!(!asked, "no diagnosis");
+    let iterations: u32 = plan.iterations.iter().map(|mesh| mesh.nlp_iterations).sum();
+    assert_eq!(iterations, 3);
+}
+
+#[test]
+fn many_joints_keep_the_time_they_were_given() {
+    const JOINTS: usize = 12;
+    let robot = trees::chain(JOINTS, 5);
+    let mut problem = Problem::builder("chain", robot, 20.0, &[0.0; JOINTS], &[0.1; JOINTS]);
+    problem.cost.joint_rate = vec![1.0; JOINTS];
+    // Not to be had, so that there is something to diagnose.
+    problem.limits.base_attitude = vec![Interval::symmetric(0.0); 3];
+    problem.solver.time_limit = Some(Duration::from_nanos(1));
+    let mut asked = false;
+    let plan = Planner::new()
+        .plan_with(&problem.build().unwrap(), None, &mut |event| {
+            asked |= matches!(event, Event::Diagnosing { .. });
+            Control::Continue
+        })
+        .unwrap();
+    assert_eq!(plan.status, Status::NotConverged);
+    assert!(!asked && plan.iterations.len() == 1);
+    assert!(plan.objective.is_finite() && plan.iterate.x.iter().all(|x| x.is_finite()));
     let warned = plan.warnings.iter().any(|text| text.contains("time limit"));
     assert!(warned, "{:?}", plan.warnings);
 }

@@ -9,6 +9,7 @@ mod figures;
 mod fit;
 mod init;
 mod interrupt;
+mod log_lines;
 mod pareto;
 mod plan;
 mod progress;

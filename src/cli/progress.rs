@@ -1,21 +1,31 @@
-//! The live line on a terminal.
+//! What is said while a plan is made: a live line on a terminal, elsewhere a line a mesh.
 
+use super::log_lines::LogLines;
+use super::terminal;
 use crate::nlp::Control;
 use crate::nlp::ipopt::interrupt;
 use crate::planner::Event;
-use crate::refine;
+use crate::refine::{self, Record};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
 use std::time::Duration;
 
-/// A line on standard error that says what is being solved; nothing where that is no terminal.
+/// How long a plan may take before anything is printed where there is no terminal.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Lines on standard error that say what is being solved.
 pub(super) struct Progress {
     bar: ProgressBar,
+    /// Where there is no terminal.
+    log: Option<LogLines>,
     title: String,
     mesh: String,
+    /// The start of the diagnosis that the next mesh belongs to.
+    start: Option<String>,
 }
 
 impl Progress {
-    /// Starts a line, or none at all where it should be `quiet`.
+    /// Starts them, or none at all where it should be `quiet`.
     pub(super) fn start(title: &str, quiet: bool) -> Self {
         let target = if quiet {
             ProgressDrawTarget::hidden()
@@ -30,10 +40,13 @@ impl Progress {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(100));
         }
+        let logged = !quiet && !std::io::stderr().is_terminal();
         Self {
             bar,
+            log: logged.then(|| LogLines::after(PATIENCE)),
             title: title.into(),
             mesh: String::new(),
+            start: None,
         }
     }
 
@@ -46,14 +59,36 @@ impl Progress {
     pub(super) fn show(&mut self, event: &Event<'_>) -> Control {
         // Ipopt polls for Ctrl-C itself.
         let stop = matches!(event, Event::Step { .. }) && interrupt::requested();
-        if self.bar.is_hidden() || stop {
-            return if stop {
-                Control::Stop
-            } else {
-                Control::Continue
-            };
+        if stop {
+            return Control::Stop;
         }
-        let message = match event {
+        self.follow(event);
+        if !self.bar.is_hidden() {
+            let message = self.message(event);
+            self.bar.set_message(format!("{}: {message}", self.title));
+        }
+        if let Some(log) = &mut self.log {
+            let line = |text: &str| format!("{}: {text}", self.title);
+            match event {
+                Event::Diagnosing { start: 1, .. } => {
+                    log.end(line("no solution found; asking which limits cannot hold"));
+                }
+                Event::Refinement(refine::Event::Mesh { .. }) => log.begin(line(&self.mesh)),
+                Event::Refinement(refine::Event::Solved(record)) => {
+                    log.end(line(&solved(&self.mesh, record)));
+                }
+                _ => {}
+            }
+            for line in log.due() {
+                terminal::complain(&line);
+            }
+        }
+        Control::Continue
+    }
+
+    /// Takes down which mesh is solved from here on.
+    fn follow(&mut self, event: &Event<'_>) {
+        match event {
             Event::Refinement(refine::Event::Mesh {
                 iteration,
                 segments,
@@ -64,30 +99,45 @@ impl Progress {
                 } else {
                     "segments"
                 };
-                self.mesh = format!("mesh {iteration}, {segments} {noun}, {points} points");
-                self.mesh.clone()
+                let start = self.start.take().unwrap_or_default();
+                self.mesh = format!("{start}mesh {iteration}, {segments} {noun}, {points} points");
             }
+            Event::Diagnosing { start, of } => {
+                self.start = Some(format!("diagnosis, start {start} of {of} at most: "));
+                self.mesh =
+                    format!("no solution; which limits cannot hold? start {start}, {of} at most");
+            }
+            _ => {}
+        }
+    }
+
+    /// The live line.
+    fn message(&self, event: &Event<'_>) -> String {
+        match event {
             Event::Refinement(refine::Event::Solver(step)) => format!(
                 "{} · iteration {}, J {:.6}, infeasibility {:.0e}",
                 self.mesh, step.iteration, step.objective, step.primal_infeasibility
             ),
-            Event::Refinement(refine::Event::Solved(record)) => format!(
-                "{} · J {:.6}, largest error {:.1e}",
-                self.mesh, record.objective, record.max_error
-            ),
-            Event::Diagnosing { start, of } => {
-                self.mesh =
-                    format!("no solution; which limits cannot hold? start {start}, {of} at most");
-                self.mesh.clone()
-            }
+            Event::Refinement(refine::Event::Solved(record)) => solved(&self.mesh, record),
             Event::Step { step, of } => format!("step {step} of {of}"),
-        };
-        self.bar.set_message(format!("{}: {message}", self.title));
-        Control::Continue
+            _ => self.mesh.clone(),
+        }
     }
 
-    /// Takes the line away.
+    /// Takes the live line away.
     pub(super) fn finish(self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// What came of a mesh.
+fn solved(mesh: &str, record: &Record) -> String {
+    let status = match record.nlp_status.is_solved() {
+        true => String::new(),
+        false => format!("{}, ", record.nlp_status.describe()),
+    };
+    format!(
+        "{mesh} · {status}{} iterations, J {:.6}, largest error {:.1e}",
+        record.nlp_iterations, record.objective, record.max_error
+    )
 }

@@ -1,6 +1,7 @@
 //! What is wrong with an input file: where, which key, what stands there, what was expected.
 
 use crate::dynamics::{InertiaError, ModelError};
+use crate::problem::Impossible;
 use std::fmt;
 use std::sync::Arc;
 
@@ -109,6 +110,14 @@ pub enum ConfigError {
         /// What can be done about it.
         remedy: Remedy,
     },
+    /// A task that no motion can carry out.
+    #[error("{place}: {cause}")]
+    Impossible {
+        /// The line.
+        place: Place,
+        /// Why.
+        cause: Impossible,
+    },
     /// Several things that are wrong with one file.
     #[error("{place}: {} faults: {}", .faults.len(), listed(.faults))]
     Several {
@@ -176,6 +185,7 @@ impl ConfigError {
             | Self::Inertia { place, .. }
             | Self::Model { place, .. }
             | Self::Unphysical { place, .. }
+            | Self::Impossible { place, .. }
             | Self::Several { place, .. } => place,
         }
     }

@@ -94,7 +94,7 @@ impl Overrides {
             let unknown = || ConfigError::Format {
                 place: place(flag),
                 message: "not an option that changes a problem; expected --repair, or \
-                          --set, --method or --tolerance with its value"
+                          --set, --method, --tolerance or --time-limit with its value"
                     .into(),
             };
             if flag == Self::REPAIR {
@@ -105,9 +105,13 @@ impl Overrides {
             match option {
                 "--set" => overrides.set(value)?,
                 "--method" => overrides.text(flag, "mesh.method", value),
-                "--tolerance" => {
+                "--tolerance" | "--time-limit" => {
+                    let key = match option {
+                        "--tolerance" => "mesh.tolerance",
+                        _ => "solver.time_limit",
+                    };
                     let value = value.parse().map_err(|_| unknown())?;
-                    overrides.number(flag, "mesh.tolerance", value);
+                    overrides.number(flag, key, value);
                 }
                 _ => return Err(unknown()),
             }
@@ -265,6 +269,7 @@ mod tests {
         overrides.text("--method rpm", "mesh.method", "rpm");
         overrides.repair(true);
         overrides.number("--tolerance 1e-7", "mesh.tolerance", 1e-7);
+        overrides.number("--time-limit 20.0", "solver.time_limit", 20.0);
         assert_eq!(Overrides::replay(&overrides.flags()).unwrap(), overrides);
         let error = Overrides::replay(&["--quiet".into()]).unwrap_err();
         assert!(

@@ -1,6 +1,7 @@
 //! The problem file.
 
 use super::document::{Node, quoted};
+use super::faults::Faults;
 use super::files::Files;
 use super::item::{Item, Section};
 use super::robot::{self, Robot, RobotFile};
@@ -8,6 +9,7 @@ use super::trust::Origin;
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, long_way, tables};
 use crate::problem::{EXPECTED_NAME, Problem, ProblemBuilder, ProblemError, is_name};
+use crate::system::impossible;
 use std::path::Path;
 
 /// A problem and the files it was read from.
@@ -35,13 +37,22 @@ pub struct ProblemFile {
 }
 
 impl ProblemFile {
-    /// Reads and validates the problem file at `path`.
+    /// Reads and validates the problem file at `path`, and asks whether its task can be carried out
+    /// at all.
     ///
     /// # Errors
-    /// [`ConfigError`] for the first thing found wrong in it, in the robot's file or in
-    /// `overrides`.
+    /// [`ConfigError`] for what is found wrong in it, in the robot's file or in `overrides`.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, ConfigError> {
-        Self::read(path, Files::Disk, overrides)
+        let file = Self::read(path, Files::Disk, overrides)?;
+        let mut faults = Faults::default();
+        for cause in impossible(&file.problem) {
+            let place = file.place(&cause.key());
+            faults.push(ConfigError::Impossible { place, cause });
+        }
+        match faults.is_empty() {
+            true => Ok(file),
+            false => Err(faults.into_error(whole(&file.path))),
+        }
     }
 
     /// One of the problems shipped in `config/`, by name ("table1-relaxed").
@@ -80,6 +91,13 @@ impl ProblemFile {
         let mut document = source.document;
         overrides.apply(&mut document)?;
         let (builder, robot, note) = read(&document, path, files)?;
+        let mut faults = Faults::default();
+        for fault in builder.faults() {
+            faults.push(blame(&document, fault));
+        }
+        if !faults.is_empty() {
+            return Err(faults.into_error(whole(&source.path)));
+        }
         let problem = builder.build().map_err(|error| blame(&document, error))?;
         let long_way = long_way::notes(&problem, |key| document.locate(key).to_string());
         let notes = robot.notes(&problem).into_iter().chain(note);
@@ -104,6 +122,14 @@ impl ProblemFile {
     /// An error of the problem, with the place of its key.
     pub fn blame(&self, error: ProblemError) -> ConfigError {
         blame(&self.document, error)
+    }
+}
+
+/// The whole of the file at `path`.
+fn whole(path: &str) -> Place {
+    Place {
+        source: path.into(),
+        line: None,
     }
 }
 

@@ -14,6 +14,7 @@
 //! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
 //! | `attitude` | the rate map of the base attitude |
 //! | `mounted_frames` | frames fixed in bodies, the end effector's among them |
+//! | `mobility`, `reach` | bounds on H and on the end effector's distance, at all positions |
 //! | `sensitivity` | first and second derivatives of the free motion, by structure |
 //!
 //! All vectors are in the axes of the base body, so that nothing depends on the base attitude.
@@ -30,6 +31,7 @@ mod ldl;
 mod mass_center;
 mod mass_matrix;
 mod massless;
+mod mobility;
 mod model;
 mod model_tree;
 mod momentum;
@@ -37,6 +39,7 @@ mod mount;
 mod mounted_frames;
 mod placement;
 mod planarity;
+mod reach;
 mod relative_frames;
 mod sensitivity;
 pub mod space;
@@ -53,5 +56,6 @@ pub use model::{Model, ModelError};
 pub use mount::Mount;
 pub use placement::Placement;
 pub use planarity::{Deviation, Plane};
+pub use reach::Ball;
 pub use sensitivity::Sensitivity;
 pub use tree::Tree;

@@ -28,7 +28,8 @@ pub enum OptionValue {
 pub struct Settings {
     /// Convergence tolerance of the scaled optimality conditions. Default 1e-9.
     pub tolerance: f64,
-    /// Limit on iterations. Default 500.
+    /// Limit on iterations: of one solve, and in a refinement of all attempts on one mesh together.
+    /// Default 500.
     pub max_iterations: u32,
     /// Limit on the wall time of all that is done with these settings: one solve, a refinement or a
     /// whole plan with its diagnosis. It is looked at after each iteration. Default `None`.

@@ -66,9 +66,18 @@ impl ProblemBuilder {
     /// no joint can move without moving any mass there.
     ///
     /// # Errors
-    /// [`ProblemError`] for the first thing found wrong.
+    /// [`ProblemError`] for the first thing found wrong; [`faults`](Self::faults) has all.
     pub fn build(self) -> Result<Problem, ProblemError> {
-        validation::check(&self)?;
-        Ok(Problem(self))
+        match self.faults().into_iter().next() {
+            Some(fault) => Err(fault),
+            None => Ok(Problem(self)),
+        }
+    }
+
+    /// All that [`build`](Self::build) would find wrong: the first thing where something has the wrong
+    /// length or is no sensible number, else every place where start, way-points and goal are outside
+    /// of their limits.
+    pub fn faults(&self) -> Vec<ProblemError> {
+        validation::faults(self)
     }
 }

@@ -11,6 +11,7 @@
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
 //! | `motion`, `metrics` | a motion over time, its figures, the base angle |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
+//! | `impossible/` | what no motion can do, found before any solve |
 
 mod cost;
 mod derivatives;
@@ -21,6 +22,7 @@ mod free_floating;
 mod functions;
 mod goal_errors;
 mod guess;
+mod impossible;
 mod instant;
 mod limits;
 mod linearization;
@@ -40,6 +42,7 @@ pub use dispatch::System;
 pub use free_floating::FreeFloating;
 pub use goal_errors::{GoalError, goal_errors};
 pub use guess::through;
+pub use impossible::impossible;
 pub use limits::ElasticLimit;
 pub use metrics::{at_nodes, base_angles, base_displacements, finely, metrics_of};
 pub use motion::{Metrics, Trajectory};

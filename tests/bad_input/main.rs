@@ -8,6 +8,7 @@ mod command_line;
 mod complaints;
 mod files;
 mod hostile;
+mod impossible;
 mod keys;
 mod limits;
 mod numbers;

@@ -72,7 +72,7 @@ fn way_points_that_cannot_be() {
              within limits.joint_position, [-1.5, 1.5]",
         ),
         (
-            vec!["time = 5.0\njoint_rates = 1.0".into()],
+            vec!["time = 5.0\njoint_rates = { shoulder = 1.0 }".into()],
             "case.toml:12: task.way_points[0].joint_rates[0]: 1 for joint 'shoulder'; expected a \
              value within limits.joint_velocity, [-0.9, 0.9]",
         ),

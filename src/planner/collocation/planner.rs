@@ -147,7 +147,7 @@ impl<Sp: Space> Search<'_, Sp> {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Found, PlanError> {
         let first = self.refine(start, monitor)?;
-        if first.status != Status::NotConverged || !asks_why(&first.outcome) {
+        if first.status != Status::NotConverged || !asks_why(&first.outcome, self.solver) {
             return Ok(first);
         }
         let mut outcome = first.outcome;
@@ -216,10 +216,14 @@ impl<Sp: Space> Search<'_, Sp> {
 }
 
 /// Whether it is to be asked which limits cannot hold: not where time ran out, nor where there are
-/// solutions that only need finer meshes.
-fn asks_why(outcome: &Outcome) -> bool {
+/// solutions that only need finer meshes, nor where so few iterations were allowed that these alone
+/// are the reason. They would be too few for the answer as well.
+fn asks_why(outcome: &Outcome, solver: &nlp::Settings) -> bool {
     let last = outcome.records.last().map(|record| record.verdict);
-    outcome.cut_short.is_none() && (!outcome.status.is_solved() || last == Some(Verdict::Diverging))
+    let too_few = outcome.status == nlp::Status::MaxIterations
+        && solver.max_iterations < diagnosis::ITERATIONS;
+    let unsolved = !outcome.status.is_solved() && !too_few;
+    outcome.cut_short.is_none() && (unsolved || last == Some(Verdict::Diverging))
 }
 
 /// The plan of what was found.

@@ -3,43 +3,50 @@
 use super::checks::{Checked, error, indexed};
 use crate::ocp::Interval;
 use crate::problem::builder::ProblemBuilder;
+use crate::problem::error::ProblemError;
 use crate::problem::limit_id::LimitId;
 use crate::problem::unit::Unit;
 
-/// Start and goal are within the limits of the joints.
-pub(super) fn within_limits(problem: &ProblemBuilder) -> Checked {
+/// Where start and goal are outside of the limits of the joints.
+pub(super) fn within_limits(problem: &ProblemBuilder) -> Vec<ProblemError> {
     let (task, limits) = (&problem.task, &problem.limits);
     let position = (LimitId::JointPosition, &limits.joint_position[..]);
     let velocity = (LimitId::JointVelocity, &limits.joint_velocity[..]);
     let all = |values: &[f64]| values.iter().copied().map(Some).collect::<Vec<_>>();
     let given = task.final_joints.iter().zip(&task.free_joints);
     let given: Vec<_> = given.map(|(q, free)| (!free).then_some(*q)).collect();
-    let within = |key, values: &[Option<f64>], limit| within(problem, key, values, limit);
-    within("task.initial.joints", &all(&task.initial_joints), position)?;
-    within("task.final.joints", &given, position)?;
-    within("task.initial.rates", &all(&task.initial_rates), velocity)
+    let within = |key, values: &[Option<f64>], limit| outside(problem, key, values, limit);
+    let mut faults = within("task.initial.joints", &all(&task.initial_joints), position);
+    faults.extend(within("task.final.joints", &given, position));
+    faults.extend(within(
+        "task.initial.rates",
+        &all(&task.initial_rates),
+        velocity,
+    ));
+    faults
 }
 
-/// Those of `values` that are given, one a joint, are within `bounds`.
-fn within(
+/// Those of `values` that are given, one a joint, and outside of `bounds`.
+fn outside(
     problem: &ProblemBuilder,
     key: &str,
     values: &[Option<f64>],
     (limit, bounds): (LimitId, &[Interval]),
-) -> Checked {
+) -> Vec<ProblemError> {
+    let mut faults = Vec::new();
     for (i, (value, bound)) in values.iter().zip(bounds).enumerate() {
         let Some(value) = value.filter(|value| bound.violation(*value) > 0.0) else {
             continue;
         };
         let joint = &problem.robot.joints()[i];
         let unit = Unit::position(joint.kind);
-        return Err(error(
+        faults.push(error(
             indexed(key, i, values.len()),
             format!("{value} {unit} for joint '{}'", joint.name),
             format!("a value within {limit}, [{}, {}]", bound.lower, bound.upper),
         ));
     }
-    Ok(())
+    faults
 }
 
 /// No joint can move without moving any mass at the positions that the task names, as with bodies

@@ -4,12 +4,12 @@ use super::checks::{Checked, count, error, indexed, interval};
 use crate::ocp::Interval;
 use crate::problem::builder::ProblemBuilder;
 use crate::problem::components::ComponentKind;
+use crate::problem::error::ProblemError;
 use crate::problem::limit_id::LimitId;
 
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     every_bound(problem)?;
-    rotation_angles(problem)?;
-    start(problem)
+    rotation_angles(problem)
 }
 
 fn every_bound(problem: &ProblemBuilder) -> Checked {
@@ -48,8 +48,9 @@ fn rotation_angles(problem: &ProblemBuilder) -> Checked {
     Ok(())
 }
 
-/// The base at the start is within its bounds along the path.
-fn start(problem: &ProblemBuilder) -> Checked {
+/// The bounds along the path that the base at the start is outside of.
+pub(super) fn start(problem: &ProblemBuilder) -> Vec<ProblemError> {
+    let mut faults = Vec::new();
     for entry in problem.limits.entries() {
         let (what, at) = match entry.id {
             LimitId::BaseAttitude => ("attitude", problem.limited_start_attitude()),
@@ -58,16 +59,15 @@ fn start(problem: &ProblemBuilder) -> Checked {
         };
         // What was measured on the way may be off by its last digit.
         let room = |at: f64| 1e-12 * at.abs();
-        let mut pairs = entry.bounds.iter().zip(&at);
-        let off = pairs.position(|(bound, at)| bound.violation(*at) > room(*at));
-        if let Some(i) = off {
-            let Interval { lower, upper } = entry.bounds[i];
-            return Err(error(
-                indexed(&entry.id.key(), i, entry.bounds.len()),
-                format!("[{lower}, {upper}]"),
-                format!("a range around {}, the {what} at the start", at[i]),
-            ));
+        for (i, (bound, at)) in entry.bounds.iter().zip(at).enumerate() {
+            if bound.violation(at) > room(at) {
+                faults.push(error(
+                    indexed(&entry.id.key(), i, entry.bounds.len()),
+                    format!("[{}, {}]", bound.lower, bound.upper),
+                    format!("a range around {at}, the {what} at the start"),
+                ));
+            }
         }
     }
-    Ok(())
+    faults
 }

@@ -18,19 +18,30 @@ use super::error::ProblemError;
 use crate::refine::SettingError;
 use checks::error;
 
-/// Checks all of `problem`; the first thing found wrong is the error.
+/// What is wrong with `problem`.
 ///
-/// Lengths come first, so that later checks may index.
-pub(super) fn check(problem: &ProblemBuilder) -> Result<(), ProblemError> {
+/// Lengths and numbers come first, so that later checks may index: the first of these stands alone.
+pub(super) fn faults(problem: &ProblemBuilder) -> Vec<ProblemError> {
+    if let Err(fault) = content(problem) {
+        return vec![fault];
+    }
+    let mut faults = limits::start(problem);
+    faults.extend(ends::within_limits(problem));
+    faults.extend(way_points::within_limits(problem));
+    if faults.is_empty() {
+        faults.extend(ends::move_mass(problem).err());
+    }
+    faults
+}
+
+fn content(problem: &ProblemBuilder) -> Result<(), ProblemError> {
     name::check(&problem.name)?;
     task::check(problem)?;
     limits::check(problem)?;
     keep_out::check(problem)?;
     way_points::check(problem)?;
-    ends::within_limits(problem)?;
     cost::check(problem)?;
-    mesh(problem)?;
-    ends::move_mass(problem)
+    mesh(problem)
 }
 
 fn mesh(problem: &ProblemBuilder) -> Result<(), ProblemError> {

@@ -2,8 +2,8 @@
 
 use super::checks::{Checked, count, error, indexed, number, numbers};
 use super::goal;
-use crate::ocp::Interval;
 use crate::problem::builder::ProblemBuilder;
+use crate::problem::error::ProblemError;
 use crate::problem::limit_id::LimitId;
 use crate::problem::magnitude::POSITION;
 use crate::problem::way_point::{Moment, WayPoint};
@@ -61,49 +61,59 @@ fn moment(
 /// Fraction of the duration below which two way-points count as at one time.
 const CLOSEST: f64 = 1e-6;
 
+/// One number a joint, each sensible.
 fn joints(problem: &ProblemBuilder, key: &str, point: &WayPoint) -> Checked {
-    let limits = &problem.limits;
-    let (positions, rates) = (&limits.joint_position, &limits.joint_velocity);
-    let key = |name: &str| format!("{key}.{name}");
-    within(
-        problem,
-        &key("joints"),
-        &point.joints,
-        (LimitId::JointPosition, positions),
-    )?;
-    within(
-        problem,
-        &key("joint_rates"),
-        &point.joint_rates,
-        (LimitId::JointVelocity, rates),
-    )?;
     let n = problem.robot.joint_count();
+    for (name, values) in [
+        ("joints", &point.joints),
+        ("joint_rates", &point.joint_rates),
+    ] {
+        let key = format!("{key}.{name}");
+        count(&key, values.len(), n, "joints")?;
+        for (j, value) in values.iter().enumerate() {
+            let Some(value) = *value else { continue };
+            number(&indexed(&key, j, n), value, POSITION)?;
+        }
+    }
     match &point.guess {
-        Some(guess) => numbers(&key("guess"), guess, (n, "joints"), POSITION),
+        Some(guess) => numbers(&format!("{key}.guess"), guess, (n, "joints"), POSITION),
         None => Ok(()),
     }
 }
 
-/// The given ones of `values` are finite and within their limit.
-fn within(
-    problem: &ProblemBuilder,
-    key: &str,
-    values: &[Option<f64>],
-    (limit, bounds): (LimitId, &[Interval]),
-) -> Checked {
+/// Where way-points are outside of the limits of the joints.
+pub(super) fn within_limits(problem: &ProblemBuilder) -> Vec<ProblemError> {
+    let limits = &problem.limits;
     let n = problem.robot.joint_count();
-    count(key, values.len(), n, "joints")?;
-    for (j, value) in values.iter().enumerate() {
-        let Some(value) = *value else { continue };
-        number(&indexed(key, j, n), value, POSITION)?;
-        if bounds[j].violation(value) > 0.0 {
-            let found = format!("{value} for joint '{}'", problem.robot.joints()[j].name);
-            let Interval { lower, upper } = bounds[j];
-            let expected = format!("a value within {limit}, [{lower}, {upper}]");
-            return Err(error(indexed(key, j, n), found, expected));
+    let mut faults = Vec::new();
+    for (i, point) in problem.task.way_points.iter().enumerate() {
+        for (name, values, limit, bounds) in [
+            (
+                "joints",
+                &point.joints,
+                LimitId::JointPosition,
+                &limits.joint_position,
+            ),
+            (
+                "joint_rates",
+                &point.joint_rates,
+                LimitId::JointVelocity,
+                &limits.joint_velocity,
+            ),
+        ] {
+            for (j, (value, bound)) in values.iter().zip(bounds).enumerate() {
+                let Some(value) = value.filter(|value| bound.violation(*value) > 0.0) else {
+                    continue;
+                };
+                let found = format!("{value} for joint '{}'", problem.robot.joints()[j].name);
+                let expected =
+                    format!("a value within {limit}, [{}, {}]", bound.lower, bound.upper);
+                let key = format!("{}.{name}", LimitId::WayPoint(i));
+                faults.push(error(indexed(&key, j, n), found, expected));
+            }
         }
     }
-    Ok(())
+    faults
 }
 
 fn content(problem: &ProblemBuilder, key: &str, point: &WayPoint) -> Checked {

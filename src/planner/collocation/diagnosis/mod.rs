@@ -16,6 +16,9 @@ use crate::system::{ElasticLimit, FreeFloating};
 use crate::transcription::Discretization;
 use search::{Found, Search};
 
+/// Iterations that a solve of its search may take.
+pub(super) const ITERATIONS: u32 = search::ITERATIONS[0];
+
 /// What the diagnosis found.
 pub(super) struct Diagnosed {
     /// The limits that cannot hold; `None` where all can, or where nothing was found.

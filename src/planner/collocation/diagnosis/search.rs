@@ -21,8 +21,9 @@ const STARTS: usize = 16;
 const PATIENCE: usize = 5;
 /// How many of the best starts of a search are refined.
 const REFINED: usize = 2;
-/// Iterations of one solve of a search, and of one in the refinement.
-const ITERATIONS: [u32; 2] = [300, 150];
+/// Iterations of one solve of a search, and of one in the refinement; fewer where the solver's limit
+/// is lower.
+pub(super) const ITERATIONS: [u32; 2] = [300, 150];
 /// Relative gain that counts as better.
 const GAIN: f64 = 5e-3;
 /// Relative difference below which two starts ended at the same excess.

@@ -1,0 +1,27 @@
+//! What no motion can do, found before any solve: too little time, a goal beyond reach, places that
+//! a limit forbids.
+//!
+//! Every answer follows from bounds that hold whatever the path, so that nothing is refused that
+//! could be planned. What needs a search for its proof is left to the planner's diagnosis.
+//!
+//! Derived in docs/algorithms.md#least-time and docs/algorithms.md#reach.
+
+mod least_time;
+mod places;
+mod ramp;
+mod reach;
+
+use super::dispatch::{System, with_system};
+use crate::problem::{Impossible, Problem};
+
+/// Every reason found why no motion can carry out the task of `problem`; empty where there is none.
+///
+/// It takes milliseconds and solves nothing.
+pub fn impossible(problem: &Problem) -> Vec<Impossible> {
+    with_system!(&System::new(problem), system => {
+        let mut found = least_time::reasons(problem, &system.plant);
+        found.extend(reach::reasons(problem, &system.plant));
+        found.extend(places::reasons(problem, system));
+        found
+    })
+}
