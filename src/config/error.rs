@@ -116,7 +116,7 @@ pub enum ConfigError {
         /// The line.
         place: Place,
         /// Why.
-        cause: Impossible,
+        cause: Box<Impossible>,
     },
     /// Several things that are wrong with one file.
     #[error("{place}: {} faults: {}", .faults.len(), listed(.faults))]

@@ -47,6 +47,7 @@ impl ProblemFile {
         let mut faults = Faults::default();
         for cause in impossible(&file.problem) {
             let place = file.place(&cause.key());
+            let cause = Box::new(cause);
             faults.push(ConfigError::Impossible { place, cause });
         }
         match faults.is_empty() {
