@@ -13,7 +13,7 @@ use super::{
 use crate::largest::largest;
 use crate::nlp::{self, Control, Deadline, Progress, Statistics, Status};
 use crate::ocp::Ocp;
-use crate::transcription::{Discretization, Patterns};
+use crate::transcription::{Discretization, Patterns, integrals};
 use std::fmt;
 use std::time::Instant;
 
@@ -122,12 +122,18 @@ impl<O: Ocp> Refinement<'_, O> {
             let expected = formulation.widths();
             return Err(SolveError::Start { found, expected });
         }
+        let found = start.trajectory.parameters.len();
+        let expected = formulation.parameters.len();
+        if found != expected {
+            return Err(SolveError::StartParameters { found, expected });
+        }
         let law = self.settings.law();
         let deadline = Deadline::after(self.solver.time_limit);
         let mut records: Vec<Record> = Vec::new();
         let mut statistics = Statistics::default();
         let mut trajectory = self.at_way_points(&start.trajectory);
         start_check::written(self.ocp, &formulation, &trajectory)?;
+        trajectory.integrals = integrals(self.ocp, &formulation, &trajectory);
         let mut conditioning = Conditioning::new(self.ocp, self.patterns, &trajectory);
         let solver = MeshSolver {
             ocp: self.ocp,

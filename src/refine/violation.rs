@@ -2,7 +2,7 @@
 //!
 //! Derived in docs/algorithms.md#bounds-between-the-nodes.
 
-use crate::ocp::{Interval, Ocp, Point, Quantity};
+use crate::ocp::{Interval, Ocp, Quantity};
 use crate::transcription::Discretization;
 
 /// What is bounded.
@@ -74,10 +74,10 @@ pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Viola
             let mut worst: Vec<Option<Violation>> = vec![None; quantities.len()];
             for tau in places(mesh.rule(segment).nodes(), segment + 1 == mesh.segments()) {
                 trajectory.state_in(segment, tau, &mut x);
-                let t = mesh.fraction(segment, tau) * trajectory.duration;
+                let t = trajectory.time(mesh.fraction(segment, tau));
                 if path_rows {
                     trajectory.control_in(segment, tau, &mut u);
-                    let point = Point { x: &x, u: &u, t };
+                    let point = trajectory.point(&x, &u, t);
                     ocp.continuous(point, &mut scratch, &mut rates, &mut path);
                 }
                 for (worst, &(what, quantity)) in worst.iter_mut().zip(&quantities) {

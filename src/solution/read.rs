@@ -248,7 +248,10 @@ fn rows(mesh: Mesh, trajectory: &Trajectory) -> Result<Discretization, Misfit> {
         .copied()
         .collect();
     Ok(Discretization {
+        initial_time: 0.0,
         duration,
+        parameters: Vec::new(),
+        integrals: Vec::new(),
         states: eta[0].len() + theta[0].len() + rates[0].len(),
         controls: u[0].len(),
         x,

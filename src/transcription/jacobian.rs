@@ -2,8 +2,10 @@
 
 use super::evaluation::Evaluation;
 use super::{Discretization, Layout};
+use crate::autodiff::Sparsity;
 use crate::collocation::Mesh;
-use crate::ocp::Ocp;
+use crate::ocp::{Formulation, Ocp};
+use std::collections::BTreeMap;
 
 /// What a nonzero of the Jacobian is made of, beyond its constant part.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +26,14 @@ enum Term {
     End { slot: usize },
     /// Derivative `slot` of a way-point.
     WayPoint { way_point: usize, slot: usize },
+    /// −(T·quadrature weight)·(derivative `slot` of the point).
+    Integrand { point: usize, slot: usize },
+    /// −(quadrature weight)·(g_output + T·α·(time derivative, where there is one)).
+    IntegrandByDuration {
+        point: usize,
+        output: usize,
+        time: Option<usize>,
+    },
 }
 
 /// The constraint Jacobian of a transcription: triplets, constant parts and terms to add.
@@ -36,6 +46,8 @@ pub(super) struct Jacobian {
     terms: Vec<(usize, Term)>,
     /// width/2 of the segment of each point.
     half_width: Vec<f64>,
+    /// Quadrature weight of each point.
+    quadrature: Vec<f64>,
 }
 
 impl Jacobian {
@@ -46,6 +58,7 @@ impl Jacobian {
             constant: Vec::new(),
             terms: Vec::new(),
             half_width: half_widths(mesh),
+            quadrature: quadrature(mesh),
         };
         for s in 0..mesh.segments() {
             for i in 0..mesh.rule(s).len() {
@@ -55,6 +68,18 @@ impl Jacobian {
             }
         }
         jacobian.boundary(layout, evaluation);
+        for i in 0..layout.integrals {
+            jacobian.integral(layout, evaluation, i);
+        }
+        if layout.bounded_final_time {
+            let times = [
+                layout.free_duration.then(|| layout.duration()),
+                layout.free_initial_time.then(|| layout.initial_time()),
+            ];
+            for column in times.into_iter().flatten() {
+                jacobian.push(layout.final_time_row(), column, 1.0, None);
+            }
+        }
         jacobian
     }
 
@@ -91,8 +116,12 @@ impl Jacobian {
             }
             for &input in inputs.iter().filter(|&&input| input != r && input != time) {
                 let slot = find(input).expect("an input of the row");
-                let column = layout.state(point, input);
+                let column = layout.input(point, input);
                 self.push(row, column, 0.0, Some(Term::Rate { point, slot }));
+            }
+            if let Some(slot) = find(time).filter(|_| layout.free_initial_time) {
+                let term = Term::Rate { point, slot };
+                self.push(row, layout.initial_time(), 0.0, Some(term));
             }
             if layout.free_duration && sparsity.active[r] {
                 let term = Term::RateByDuration {
@@ -108,23 +137,24 @@ impl Jacobian {
 
     fn path<O: Ocp>(&mut self, layout: &Layout, evaluation: &Evaluation<'_, O>, point: usize) {
         let sparsity = evaluation.node_derivatives().sparsity();
-        let mut slot: usize = sparsity.jacobian[..layout.states]
-            .iter()
-            .map(Vec::len)
-            .sum();
+        let mut slot = first_slot(sparsity, layout.states);
         for p in 0..layout.path {
             let row = layout.path(point, p);
             for &input in &sparsity.jacobian[layout.states + p] {
                 if input == evaluation.node.time() {
+                    if layout.free_initial_time {
+                        let term = Term::Path { point, slot };
+                        self.push(row, layout.initial_time(), 0.0, Some(term));
+                    }
                     // The first point stands at t₀ whatever the duration.
-                    if evaluation.fraction(point) > 0.0 {
+                    if layout.free_duration && evaluation.fraction(point) > 0.0 {
                         let term = Term::PathByDuration { point, slot };
                         self.push(row, layout.duration(), 0.0, Some(term));
                     }
                 } else {
                     self.push(
                         row,
-                        layout.state(point, input),
+                        layout.input(point, input),
                         0.0,
                         Some(Term::Path { point, slot }),
                     );
@@ -166,6 +196,52 @@ impl Jacobian {
         }
     }
 
+    /// The row of integral `i`: its value less the quadrature of its integrand.
+    fn integral<O: Ocp>(&mut self, layout: &Layout, evaluation: &Evaluation<'_, O>, i: usize) {
+        let sparsity = evaluation.node_derivatives().sparsity();
+        let time = evaluation.node.time();
+        let output = evaluation.node.cost() + 1 + i;
+        let first = first_slot(sparsity, output);
+        let inputs = &sparsity.jacobian[output];
+        let row = layout.integral_row(i);
+        self.push(row, layout.integral(i), 1.0, None);
+        // Columns of the border have a term from every point.
+        let mut shared: BTreeMap<usize, Vec<Term>> = BTreeMap::new();
+        let border = layout.border();
+        for point in 0..layout.points {
+            for (slot, &input) in (first..).zip(inputs) {
+                let term = Term::Integrand { point, slot };
+                if input == time {
+                    if layout.free_initial_time {
+                        shared.entry(layout.initial_time()).or_default().push(term);
+                    }
+                    continue;
+                }
+                let column = layout.input(point, input);
+                if border.contains(&column) {
+                    shared.entry(column).or_default().push(term);
+                } else {
+                    self.push(row, column, 0.0, Some(term));
+                }
+            }
+            if layout.free_duration && sparsity.active[output] {
+                let time = inputs.iter().position(|&input| input == time);
+                let term = Term::IntegrandByDuration {
+                    point,
+                    output,
+                    time: time.map(|k| first + k),
+                };
+                shared.entry(layout.duration()).or_default().push(term);
+            }
+        }
+        for (column, terms) in shared {
+            let nonzero = self.rows.len();
+            self.push(row, column, 0.0, None);
+            self.terms
+                .extend(terms.into_iter().map(|term| (nonzero, term)));
+        }
+    }
+
     pub fn values<O: Ocp>(
         &self,
         duration: f64,
@@ -192,6 +268,19 @@ impl Jacobian {
                 }
                 Term::End { slot } => evaluation.end_first[slot],
                 Term::WayPoint { way_point, slot } => evaluation.way_points[way_point].first[slot],
+                Term::Integrand { point, slot } => {
+                    -duration * self.quadrature[point] * first(point, slot)
+                }
+                Term::IntegrandByDuration {
+                    point,
+                    output,
+                    time,
+                } => {
+                    let by_time = time.map_or(0.0, |slot| {
+                        duration * evaluation.fraction(point) * first(point, slot)
+                    });
+                    -self.quadrature[point] * (evaluation.outputs(point)[output] + by_time)
+                }
             };
         }
     }
@@ -224,14 +313,19 @@ pub(super) fn gradient<O: Ocp>(
     let sparsity = evaluation.node_derivatives().sparsity();
     let cost = evaluation.node.cost();
     let inputs = &sparsity.jacobian[cost];
-    let offset = evaluation.node_derivatives().jacobian_nonzeros() - inputs.len();
+    let offset = first_slot(sparsity, cost);
     for (k, w) in quadrature.iter().enumerate() {
         let first = &evaluation.nonzeros(k)[offset..];
         for (&input, d) in inputs.iter().zip(first) {
-            if input == evaluation.node.time() {
+            if input != evaluation.node.time() {
+                gradient[layout.input(k, input)] += duration * w * d;
+                continue;
+            }
+            if layout.free_duration {
                 gradient[layout.duration()] += duration * w * evaluation.fraction(k) * d;
-            } else {
-                gradient[layout.state(k, input)] += duration * w * d;
+            }
+            if layout.free_initial_time {
+                gradient[layout.initial_time()] += duration * w * d;
             }
         }
         if layout.free_duration {
@@ -245,12 +339,49 @@ pub(super) fn gradient<O: Ocp>(
     }
 }
 
-/// Variable behind an input of the boundary function (x(t₀), x(t_f), T).
+/// Value of each integral of `ocp` on `trajectory`, by the quadrature of its mesh.
+pub fn integrals<O: Ocp>(
+    ocp: &O,
+    formulation: &Formulation,
+    trajectory: &Discretization,
+) -> Vec<f64> {
+    let mut sums = vec![0.0; formulation.integrals.len()];
+    if sums.is_empty() {
+        return sums;
+    }
+    let mut scratch = ocp.scratch::<f64>();
+    let mut rates = vec![0.0; formulation.states.len()];
+    let mut path = vec![0.0; formulation.path.len()];
+    let mut integrands = vec![0.0; sums.len()];
+    let times = trajectory.times();
+    for (k, weight) in quadrature(&trajectory.mesh).into_iter().enumerate() {
+        let point = trajectory.point(trajectory.state(k), trajectory.control(k), times[k]);
+        ocp.continuous(point, &mut scratch, &mut rates, &mut path);
+        ocp.integrands(point, &mut scratch, &mut integrands);
+        for (sum, value) in sums.iter_mut().zip(&integrands) {
+            *sum += trajectory.duration * weight * value;
+        }
+    }
+    sums
+}
+
+/// The first nonzero of `output` among those of a function's Jacobian.
+fn first_slot(sparsity: &Sparsity, output: usize) -> usize {
+    sparsity.jacobian[..output].iter().map(Vec::len).sum()
+}
+
+/// Variable behind an input of the boundary function (x(t₀), x(t_f), p, q, t₀, T).
 pub(super) fn end_column(layout: &Layout, input: usize) -> usize {
-    if input < layout.states {
+    let n = layout.states;
+    let times = 2 * n + layout.parameters + layout.integrals;
+    if input < n {
         layout.state(0, input)
-    } else if input < 2 * layout.states {
-        layout.state(layout.points, input - layout.states)
+    } else if input < 2 * n {
+        layout.state(layout.points, input - n)
+    } else if input < times {
+        layout.parameter(input - 2 * n)
+    } else if input == times {
+        layout.initial_time()
     } else {
         layout.duration()
     }
@@ -275,8 +406,8 @@ pub(super) fn quadrature(mesh: &Mesh) -> Vec<f64> {
         .collect()
 }
 
-/// Programme variables of a discretization.
-pub(super) fn pack(layout: &Layout, from: &Discretization) -> Vec<f64> {
+/// Programme variables of a discretization whose integrals have these values.
+pub(super) fn pack(layout: &Layout, from: &Discretization, integrals: &[f64]) -> Vec<f64> {
     let mut x = vec![0.0; layout.variables()];
     for k in 0..=layout.points {
         let start = layout.state(k, 0);
@@ -289,5 +420,10 @@ pub(super) fn pack(layout: &Layout, from: &Discretization) -> Vec<f64> {
     if layout.free_duration {
         x[layout.duration()] = from.duration;
     }
+    if layout.free_initial_time {
+        x[layout.initial_time()] = from.initial_time;
+    }
+    x[layout.parameter(0)..layout.integral(0)].copy_from_slice(&from.parameters);
+    x[layout.integral(0)..].copy_from_slice(integrals);
     x
 }

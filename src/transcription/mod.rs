@@ -20,6 +20,7 @@ mod scales;
 mod way_point;
 
 pub use discretization::Discretization;
+pub use jacobian::integrals;
 pub use layout::{Layout, Row};
 pub use patterns::Patterns;
 pub use program::Transcription;

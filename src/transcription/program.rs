@@ -68,9 +68,15 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         &self.formulation
     }
 
-    /// The programme's variables for a trajectory on this mesh.
+    /// The programme's variables for a trajectory on this mesh. Integrals have the values that
+    /// follow from it.
+    ///
+    /// # Panics
+    /// Where the trajectory has not as many static parameters as the problem.
     pub fn pack(&self, trajectory: &Discretization) -> Vec<f64> {
-        jacobian::pack(&self.layout, trajectory)
+        let ocp = self.evaluation.node.ocp;
+        let integrals = jacobian::integrals(ocp, &self.formulation, trajectory);
+        jacobian::pack(&self.layout, trajectory, &integrals)
     }
 
     /// The trajectory of the programme's variables `x`.
@@ -86,7 +92,10 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         });
         Discretization {
             mesh: self.mesh.clone(),
+            initial_time: self.evaluation.initial_time(x),
             duration: self.evaluation.duration(x),
+            parameters: x[layout.parameter(0)..layout.integral(0)].to_vec(),
+            integrals: x[layout.integral(0)..].to_vec(),
             states: layout.states,
             controls: layout.controls,
             x: states.collect(),
@@ -142,6 +151,15 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
             lower[layout.duration()] = self.formulation.duration.lower;
             upper[layout.duration()] = self.formulation.duration.upper;
         }
+        if layout.free_initial_time {
+            lower[layout.initial_time()] = self.formulation.initial_time.lower;
+            upper[layout.initial_time()] = self.formulation.initial_time.upper;
+        }
+        let constants = [&self.formulation.parameters, &self.formulation.integrals];
+        for (v, quantity) in (layout.parameter(0)..).zip(constants.into_iter().flatten()) {
+            lower[v] = quantity.bounds.lower;
+            upper[v] = quantity.bounds.upper;
+        }
     }
 
     fn constraint_bounds(&self, lower: &mut [f64], upper: &mut [f64]) {
@@ -163,6 +181,10 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
         for (b, row) in self.formulation.boundary.iter().enumerate() {
             lower[layout.boundary(b)] = row.bounds.lower;
             upper[layout.boundary(b)] = row.bounds.upper;
+        }
+        if layout.bounded_final_time {
+            lower[layout.final_time_row()] = self.formulation.final_time.lower;
+            upper[layout.final_time_row()] = self.formulation.final_time.upper;
         }
     }
 
@@ -234,8 +256,19 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
             let first = layout.way_point(w, 0);
             values[first..first + point.values.len()].copy_from_slice(&point.values);
         }
-        values[layout.boundary(0)..]
+        values[layout.boundary(0)..layout.integral_row(0)]
             .copy_from_slice(&self.evaluation.end_values[..layout.boundary]);
+        for i in 0..layout.integrals {
+            let output = self.evaluation.node.cost() + 1 + i;
+            let mut sum = 0.0;
+            for (k, w) in self.quadrature.iter().enumerate() {
+                sum += w * self.evaluation.outputs(k)[output];
+            }
+            values[layout.integral_row(i)] = x[layout.integral(i)] - duration * sum;
+        }
+        if layout.bounded_final_time {
+            values[layout.final_time_row()] = self.evaluation.initial_time(x) + duration;
+        }
         if values.iter().all(|v| v.is_finite()) {
             Ok(())
         } else {
