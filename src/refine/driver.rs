@@ -133,6 +133,7 @@ impl<O: Ocp> Refinement<'_, O> {
         let mut statistics = Statistics::default();
         let mut trajectory = self.at_way_points(&start.trajectory);
         start_check::written(self.ocp, &formulation, &trajectory)?;
+        trajectory.initial_time = formulation.initial_time.clamp(trajectory.initial_time);
         trajectory.integrals = integrals(self.ocp, &formulation, &trajectory);
         let mut conditioning = Conditioning::new(self.ocp, self.patterns, &trajectory);
         let solver = MeshSolver {

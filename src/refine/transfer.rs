@@ -256,9 +256,10 @@ impl<'a> Duals<'a> {
 ///
 /// `None` where no layout has these lengths.
 pub(super) fn saved_layout(saved: &Iterate, layout: &Layout) -> Option<Layout> {
-    if layout.way_point_nodes().next().is_some() {
-        // The number of rows does not say how many belong to way-points: only the same layout will
-        // do.
+    let whole = layout.integrals > 0 || layout.bounded_final_time;
+    if whole || layout.way_point_nodes().next().is_some() {
+        // The number of rows does not say how many belong to way-points or to the whole: only the
+        // same layout will do.
         let same = saved.x.len() == layout.variables() && saved.has_multipliers(layout.rows());
         return same.then(|| layout.clone());
     }
