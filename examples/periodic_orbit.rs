@@ -54,7 +54,7 @@ impl Ocp for VanDerPol {
 /// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let mut settings = ocp::Settings::default();
-    settings.mesh.tolerance = 1e-9;
+    settings.mesh.tolerance = 1e-7;
     settings.mesh.max_iterations = Some(15);
     // A circle, as a guess.
     let outcome = ocp::solve_from(&VanDerPol, &settings, 6.0, |fraction, x, _| {
