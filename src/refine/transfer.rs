@@ -343,7 +343,7 @@ mod tests {
             iterate.multipliers[from.defect(k, 0)] = weight.defect * costate(k, &coarse);
         }
         let node = coarse.start(1);
-        // What belongs to no instant: t₀, a parameter, an integral, their rows and that of t_f.
+        // What belongs to no instant: T, t₀, a parameter, an integral, the rows of that and of t_f.
         for (value, variable) in (10..).zip(from.border()) {
             iterate.upper_multipliers[variable] = f64::from(value);
         }
@@ -357,7 +357,10 @@ mod tests {
             assert!((found - costate(k, &fine)).abs() < 1e-14, "{k}: {found}");
         }
         assert_eq!(read.multipliers[to.way_point(0, 0)], 5.0);
-        assert_eq!(read.upper_multipliers[to.border()], [10.0, 11.0, 12.0]);
+        assert_eq!(
+            read.upper_multipliers[to.border()],
+            [10.0, 11.0, 12.0, 13.0]
+        );
         assert_eq!(read.multipliers[to.integral_row(0)..], [8.0, 9.0]);
         for k in 0..=fine.points() {
             let expected = if k == fine.start(1) { 7.0 } else { 0.0 };

@@ -2,7 +2,8 @@
 
 use super::Layout;
 use super::evaluation::Evaluation;
-use super::jacobian::{end_column, half_widths, quadrature};
+use super::jacobian::end_column;
+use super::quadrature::{half_widths, quadrature};
 use crate::collocation::Mesh;
 use crate::nlp::Undefined;
 use crate::ocp::Ocp;

@@ -1,10 +1,11 @@
-//! Structure and values of the gradient and the constraint Jacobian.
+//! Structure and values of the constraint Jacobian.
 
+use super::Layout;
 use super::evaluation::Evaluation;
-use super::{Discretization, Layout};
+use super::quadrature::{half_widths, quadrature};
 use crate::autodiff::Sparsity;
 use crate::collocation::Mesh;
-use crate::ocp::{Formulation, Ocp};
+use crate::ocp::Ocp;
 use std::collections::BTreeMap;
 
 /// What a nonzero of the Jacobian is made of, beyond its constant part.
@@ -286,87 +287,8 @@ impl Jacobian {
     }
 }
 
-/// Objective (25): terminal cost and quadrature of the running cost.
-pub(super) fn objective<O: Ocp>(
-    duration: f64,
-    quadrature: &[f64],
-    evaluation: &Evaluation<'_, O>,
-) -> f64 {
-    let cost = evaluation.node.cost();
-    let integral: f64 = quadrature
-        .iter()
-        .enumerate()
-        .map(|(k, w)| w * evaluation.outputs(k)[cost])
-        .sum();
-    evaluation.end_values[evaluation.ends.rows] + duration * integral
-}
-
-/// Gradient of the objective, dense.
-pub(super) fn gradient<O: Ocp>(
-    duration: f64,
-    quadrature: &[f64],
-    layout: &Layout,
-    evaluation: &Evaluation<'_, O>,
-    gradient: &mut [f64],
-) {
-    gradient.fill(0.0);
-    let sparsity = evaluation.node_derivatives().sparsity();
-    let cost = evaluation.node.cost();
-    let inputs = &sparsity.jacobian[cost];
-    let offset = first_slot(sparsity, cost);
-    for (k, w) in quadrature.iter().enumerate() {
-        let first = &evaluation.nonzeros(k)[offset..];
-        for (&input, d) in inputs.iter().zip(first) {
-            if input != evaluation.node.time() {
-                gradient[layout.input(k, input)] += duration * w * d;
-                continue;
-            }
-            if layout.free_duration {
-                gradient[layout.duration()] += duration * w * evaluation.fraction(k) * d;
-            }
-            if layout.free_initial_time {
-                gradient[layout.initial_time()] += duration * w * d;
-            }
-        }
-        if layout.free_duration {
-            gradient[layout.duration()] += w * evaluation.outputs(k)[cost];
-        }
-    }
-    let inputs = &evaluation.end_derivatives.sparsity().jacobian[evaluation.ends.rows];
-    let offset = evaluation.end_derivatives.jacobian_nonzeros() - inputs.len();
-    for (&input, d) in inputs.iter().zip(&evaluation.end_first[offset..]) {
-        gradient[end_column(layout, input)] += d;
-    }
-}
-
-/// Value of each integral of `ocp` on `trajectory`, by the quadrature of its mesh.
-pub fn integrals<O: Ocp>(
-    ocp: &O,
-    formulation: &Formulation,
-    trajectory: &Discretization,
-) -> Vec<f64> {
-    let mut sums = vec![0.0; formulation.integrals.len()];
-    if sums.is_empty() {
-        return sums;
-    }
-    let mut scratch = ocp.scratch::<f64>();
-    let mut rates = vec![0.0; formulation.states.len()];
-    let mut path = vec![0.0; formulation.path.len()];
-    let mut integrands = vec![0.0; sums.len()];
-    let times = trajectory.times();
-    for (k, weight) in quadrature(&trajectory.mesh).into_iter().enumerate() {
-        let point = trajectory.point(trajectory.state(k), trajectory.control(k), times[k]);
-        ocp.continuous(point, &mut scratch, &mut rates, &mut path);
-        ocp.integrands(point, &mut scratch, &mut integrands);
-        for (sum, value) in sums.iter_mut().zip(&integrands) {
-            *sum += trajectory.duration * weight * value;
-        }
-    }
-    sums
-}
-
 /// The first nonzero of `output` among those of a function's Jacobian.
-fn first_slot(sparsity: &Sparsity, output: usize) -> usize {
+pub(super) fn first_slot(sparsity: &Sparsity, output: usize) -> usize {
     sparsity.jacobian[..output].iter().map(Vec::len).sum()
 }
 
@@ -385,45 +307,4 @@ pub(super) fn end_column(layout: &Layout, input: usize) -> usize {
     } else {
         layout.duration()
     }
-}
-
-/// width/2 of the segment of each point, fraction of the duration.
-pub(super) fn half_widths(mesh: &Mesh) -> Vec<f64> {
-    (0..mesh.segments())
-        .flat_map(|s| std::iter::repeat_n(0.5 * mesh.width(s), mesh.rule(s).len()))
-        .collect()
-}
-
-/// Quadrature weight of each point, fraction of the duration; sum 1.
-pub(super) fn quadrature(mesh: &Mesh) -> Vec<f64> {
-    (0..mesh.segments())
-        .flat_map(|s| {
-            mesh.rule(s)
-                .weights()
-                .iter()
-                .map(move |w| 0.5 * mesh.width(s) * w)
-        })
-        .collect()
-}
-
-/// Programme variables of a discretization whose integrals have these values.
-pub(super) fn pack(layout: &Layout, from: &Discretization, integrals: &[f64]) -> Vec<f64> {
-    let mut x = vec![0.0; layout.variables()];
-    for k in 0..=layout.points {
-        let start = layout.state(k, 0);
-        x[start..start + layout.states].copy_from_slice(from.state(k));
-        if k < layout.points {
-            let start = layout.control(k, 0);
-            x[start..start + layout.controls].copy_from_slice(from.control(k));
-        }
-    }
-    if layout.free_duration {
-        x[layout.duration()] = from.duration;
-    }
-    if layout.free_initial_time {
-        x[layout.initial_time()] = from.initial_time;
-    }
-    x[layout.parameter(0)..layout.integral(0)].copy_from_slice(&from.parameters);
-    x[layout.integral(0)..].copy_from_slice(integrals);
-    x
 }

@@ -2,8 +2,10 @@
 
 use super::evaluation::Evaluation;
 use super::hessian::{Hessian, Multipliers};
-use super::jacobian::{self, Jacobian};
+use super::jacobian::Jacobian;
 use super::names::Names;
+use super::objective;
+use super::quadrature::{integrals, quadrature};
 use super::{Discretization, Layout, Patterns};
 use crate::collocation::Mesh;
 use crate::nlp::{Nlp, Size, Undefined};
@@ -43,7 +45,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         let evaluation = Evaluation::new(ocp, &formulation, patterns, &mesh, layout.clone());
         Self {
             names: Names::new(formulation.clone(), &mesh),
-            quadrature: jacobian::quadrature(&mesh),
+            quadrature: quadrature(&mesh),
             jacobian: Jacobian::new(&layout, &mesh, &evaluation),
             hessian: Hessian::new(&layout, &mesh, &evaluation),
             formulation,
@@ -75,8 +77,26 @@ impl<'a, O: Ocp> Transcription<'a, O> {
     /// Where the trajectory has not as many static parameters as the problem.
     pub fn pack(&self, trajectory: &Discretization) -> Vec<f64> {
         let ocp = self.evaluation.node.ocp;
-        let integrals = jacobian::integrals(ocp, &self.formulation, trajectory);
-        jacobian::pack(&self.layout, trajectory, &integrals)
+        let integrals = integrals(ocp, &self.formulation, trajectory);
+        let layout = &self.layout;
+        let mut x = vec![0.0; layout.variables()];
+        for k in 0..=layout.points {
+            let start = layout.state(k, 0);
+            x[start..start + layout.states].copy_from_slice(trajectory.state(k));
+            if k < layout.points {
+                let start = layout.control(k, 0);
+                x[start..start + layout.controls].copy_from_slice(trajectory.control(k));
+            }
+        }
+        if layout.free_duration {
+            x[layout.duration()] = trajectory.duration;
+        }
+        if layout.free_initial_time {
+            x[layout.initial_time()] = trajectory.initial_time;
+        }
+        x[layout.parameter(0)..layout.integral(0)].copy_from_slice(&trajectory.parameters);
+        x[layout.integral(0)..].copy_from_slice(&integrals);
+        x
     }
 
     /// The trajectory of the programme's variables `x`.
@@ -205,7 +225,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     fn objective(&mut self, x: &[f64]) -> Result<f64, Undefined> {
         self.evaluation.need_values(x);
         let duration = self.evaluation.duration(x);
-        let value = jacobian::objective(duration, &self.quadrature, &self.evaluation);
+        let value = objective::objective(duration, &self.quadrature, &self.evaluation);
         if value.is_finite() {
             Ok(value)
         } else {
@@ -218,7 +238,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Undefined> {
         self.need_all(x)?;
         let duration = self.evaluation.duration(x);
-        jacobian::gradient(
+        objective::gradient(
             duration,
             &self.quadrature,
             &self.layout,
