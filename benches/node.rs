@@ -41,7 +41,12 @@ fn measure<O: Ocp>(ocp: &O, point: impl FnOnce(usize, usize) -> (Vec<f64>, Vec<f
     let (inputs, outputs) = (n + m + 1, n + path + 1);
     let (z, weights) = point(n + m, outputs);
     let (x, u) = z.split_at(n);
-    let at = Point { x, u, t: 0.0 };
+    let at = Point {
+        x,
+        u,
+        parameters: &[],
+        t: 0.0,
+    };
     let mut own = ocp.derivatives().expect("derivatives by structure");
     let mut scratch = ocp.scratch::<f64>();
     let mut values = vec![0.0; outputs];

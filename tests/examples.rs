@@ -4,6 +4,8 @@
 mod free_flying_robot;
 #[path = "../examples/own_problem.rs"]
 mod own_problem;
+#[path = "../examples/periodic_orbit.rs"]
+mod periodic_orbit;
 #[path = "../examples/plan_from_file.rs"]
 mod plan_from_file;
 #[path = "../examples/plan_in_code.rs"]
@@ -12,6 +14,8 @@ mod plan_in_code;
 mod replan_many;
 #[path = "../examples/shuttle_reentry.rs"]
 mod shuttle_reentry;
+#[path = "../examples/static_parameter.rs"]
+mod static_parameter;
 #[path = "../examples/time_in_process.rs"]
 mod time_in_process;
 
@@ -23,6 +27,16 @@ fn free_flying_robot_runs() {
 #[test]
 fn shuttle_reentry_runs() {
     shuttle_reentry::main().unwrap();
+}
+
+#[test]
+fn static_parameter_runs() {
+    static_parameter::main().unwrap();
+}
+
+#[test]
+fn periodic_orbit_runs() {
+    periodic_orbit::main().unwrap();
 }
 
 #[test]

@@ -435,3 +435,55 @@ fn what_is_cut_along_the_time_axis_has_the_factors_of_any_number_of_threads() {
     let most = residual.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
     assert!(most < 1e-9, "{most:e}");
 }
+
+/// A chain with a border: two unknowns that one row of every stage depends on, as static parameters, and
+/// a row with one entry for every stage, as an integral, with its value where `open`.
+fn bordered(rng: &mut Rng, stages: usize, open: bool) -> Matrix {
+    let chain = chain(rng, stages);
+    let (variables, rows) = (14, 8);
+    let primal = stages * variables;
+    let added = 2 + usize::from(open);
+    let shifted = |i: usize| if i < primal { i } else { i + added };
+    let mut matrix = Matrix::new(chain.order + added + 1);
+    for &(i, j, value) in &chain.entries {
+        matrix.push(shifted(i), shifted(j), value);
+    }
+    let integral = chain.order + added;
+    for stage in 0..stages {
+        for parameter in 0..2 {
+            let row = shifted(primal + stage * rows + parameter);
+            matrix.push(row, primal + parameter, uniform(rng));
+        }
+        matrix.push(integral, stage * variables + 13, uniform(rng));
+    }
+    for parameter in 0..2 {
+        matrix.push(primal + parameter, primal + parameter, 1.0);
+    }
+    if open {
+        matrix.push(integral, primal + 2, 1.0);
+    }
+    matrix
+}
+
+#[test]
+fn unknowns_and_rows_of_the_whole_time_axis() {
+    let mut rng = Rng::with_seed(5);
+    for open in [false, true] {
+        for stages in [1, 3, 7] {
+            bordered(&mut rng, stages, open).check(&format!("{stages} stages, {open}"));
+        }
+    }
+}
+
+/// They belong to no domain: the axis is cut as without them, and a front is larger by so many rows.
+#[test]
+fn a_border_is_eliminated_last() {
+    let mut rng = Rng::with_seed(6);
+    let plain = Symbolic::new(chain(&mut rng, 96).sparse().0);
+    for open in [false, true] {
+        let border = Symbolic::new(bordered(&mut rng, 96, open).sparse().0);
+        assert_eq!(border.concurrency(), plain.concurrency());
+        let growth = border.multiplications() / plain.multiplications();
+        assert!(growth < 1.7, "{growth}");
+    }
+}

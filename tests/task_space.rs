@@ -289,6 +289,7 @@ fn share_of_limits(problem: &Problem, a: f64, v: f64) -> f64 {
                 let point = Point {
                     x: &x,
                     u: &u,
+                    parameters: &[],
                     t: 0.0,
                 };
                 system.continuous(point, &mut scratch, &mut rates, &mut torque);
@@ -323,6 +324,7 @@ fn coriolis(problem: &Problem) -> f64 {
                     let point = Point {
                         x: &x,
                         u: &u,
+                        parameters: &[],
                         t: 0.0,
                     };
                     system.continuous(point, &mut scratch, &mut rates, &mut torque);

@@ -27,6 +27,7 @@ impl Ocp for Gap {
             initial: vec![Interval::fixed(0.0)],
             terminal: vec![Interval::fixed(1.0)],
             duration: Interval::fixed(1.0),
+            ..Formulation::default()
         }
     }
 

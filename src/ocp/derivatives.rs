@@ -2,13 +2,13 @@
 
 use super::Point;
 
-/// First and second derivatives of (x, u, t) ↦ (f, C, ℒ) at one point, with scratch of their own.
+/// First and second derivatives of (x, u, p, t) ↦ (f, C, ℒ, g) at one point, with scratch of their own.
 ///
 /// One is made for each thread that evaluates.
 pub trait PointDerivatives: Send {
-    /// Writes the Jacobian, a row for each of f, C, ℒ and a column for each of x, u, t.
+    /// Writes the Jacobian, a row for each of f, C, ℒ, g and a column for each of x, u, p, t.
     fn jacobian(&mut self, point: Point<'_, f64>, jacobian: &mut [f64]);
 
-    /// Writes the lower triangle of Σ `weights`·∇²(f, C, ℒ), by rows of the square matrix.
+    /// Writes the lower triangle of Σ `weights`·∇²(f, C, ℒ, g), by rows of the square matrix.
     fn hessian(&mut self, point: Point<'_, f64>, weights: &[f64], hessian: &mut [f64]);
 }

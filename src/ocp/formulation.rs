@@ -7,7 +7,8 @@ use super::Interval;
 pub struct Quantity {
     /// What a person calls it ("rate of joint elbow").
     pub name: String,
-    /// Bounds along the whole path (states, controls, path rows) or at the ends (boundary rows).
+    /// Bounds along the whole path (states, controls, path rows), at the ends (boundary rows), or of
+    /// one value (parameters, integrals).
     pub bounds: Interval,
     /// What counts as one in it, in its unit; `None` for the size of its bounds.
     pub size: Option<f64>,
@@ -59,8 +60,18 @@ pub struct Formulation {
     pub initial: Vec<Interval>,
     /// Bounds of each state at t_f.
     pub terminal: Vec<Interval>,
-    /// Bounds of the duration t_f − t₀ in s; fixed where both are equal. t₀ is 0.
+    /// Static parameters p, with their bounds: unknowns that do not change in time.
+    pub parameters: Vec<Quantity>,
+    /// Their values to begin with, one each; what is outside the bounds begins on them.
+    pub parameter_guess: Vec<f64>,
+    /// Integrals ∫g dt from t₀ to t_f, with their bounds.
+    pub integrals: Vec<Quantity>,
+    /// Bounds of t₀ in s; fixed where both are equal.
+    pub initial_time: Interval,
+    /// Bounds of the duration t_f − t₀ in s; fixed where both are equal.
     pub duration: Interval,
+    /// Bounds of t_f in s, beyond what `initial_time` and `duration` say.
+    pub final_time: Interval,
     /// What has to hold between the ends, in the order of the fractions, no two at the same.
     pub way_points: Vec<WayPoint>,
 }
@@ -79,7 +90,7 @@ pub struct WayPoint {
 }
 
 impl Default for Formulation {
-    /// Nothing yet, for one second.
+    /// Nothing yet, for one second from t₀ = 0 on.
     fn default() -> Self {
         Self {
             states: Vec::new(),
@@ -88,19 +99,52 @@ impl Default for Formulation {
             boundary: Vec::new(),
             initial: Vec::new(),
             terminal: Vec::new(),
+            parameters: Vec::new(),
+            parameter_guess: Vec::new(),
+            integrals: Vec::new(),
+            initial_time: Interval::fixed(0.0),
             duration: Interval::fixed(1.0),
+            final_time: Interval::FREE,
             way_points: Vec::new(),
         }
     }
 }
 
 impl Formulation {
-    /// Nothing yet, for `duration`.
+    /// Nothing yet, for `duration` from t₀ = 0 on.
     pub fn over(duration: Interval) -> Self {
         Self {
             duration,
             ..Self::default()
         }
+    }
+
+    /// Nothing yet, from a t₀ within `start` to a t_f within `end`.
+    pub fn between(start: Interval, end: Interval) -> Self {
+        let shortest = (end.lower - start.upper).max(0.0);
+        Self {
+            initial_time: start,
+            duration: Interval::new(shortest, end.upper - start.lower),
+            // With t₀ the duration alone tells t_f.
+            final_time: match start.is_fixed() {
+                true => Interval::FREE,
+                false => end,
+            },
+            ..Self::default()
+        }
+    }
+
+    /// With a static parameter more: its bounds and the value it begins with.
+    pub fn parameter(mut self, parameter: Quantity, guess: f64) -> Self {
+        self.parameters.push(parameter);
+        self.parameter_guess.push(guess);
+        self
+    }
+
+    /// With an integral more: the bounds of ∫g dt.
+    pub fn integral(mut self, integral: Quantity) -> Self {
+        self.integrals.push(integral);
+        self
     }
 
     /// With a state more: its bounds along the path, at t₀ and at t_f.
@@ -138,6 +182,11 @@ impl Formulation {
     /// Number of states and of controls.
     pub fn widths(&self) -> (usize, usize) {
         (self.states.len(), self.controls.len())
+    }
+
+    /// Whether the time of a point is an unknown.
+    pub fn has_free_time(&self) -> bool {
+        !self.duration.is_fixed() || !self.initial_time.is_fixed()
     }
 
     /// Fractions of the duration at which the mesh needs a breakpoint, rising.

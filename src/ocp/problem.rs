@@ -5,7 +5,8 @@ use crate::autodiff::Scalar;
 
 /// An optimal control problem in Bolza form, eq. (17) and (18).
 ///
-/// Minimise Φ(ends) + ∫ℒ dt subject to ẋ = f, path and boundary constraints and bounds. All
+/// Minimise Φ(ends) + ∫ℒ dt subject to ẋ = f, bounds on integrals ∫g dt, path and boundary
+/// constraints and bounds, over states, controls, static parameters, t₀ and the duration. All
 /// functions are generic over [`Scalar`], from which values, gradients and Hessians follow; they
 /// must be smooth where they are evaluated. Sparsity follows from their operations, recorded by
 /// [`Trace`](crate::autodiff::Trace); a problem that branches on values says so by
@@ -29,6 +30,18 @@ pub trait Ocp: Sync {
         path: &mut [S],
     ) -> S;
 
+    /// Writes the integrands g of [`Formulation::integrals`] into `integrands`.
+    ///
+    /// It is called right after [`Ocp::continuous`], at the same point and with the same scratch.
+    fn integrands<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        integrands: &mut [S],
+    ) {
+        let _ = (point, scratch, integrands);
+    }
+
     /// Writes the boundary rows E into `rows`; returns the terminal cost Φ.
     fn boundary<S: Scalar>(
         &self,
@@ -50,7 +63,7 @@ pub trait Ocp: Sync {
         let _ = (point, scratch, rows);
     }
 
-    /// Derivatives of [`Ocp::continuous`] by the problem's own structure, where it has any that
+    /// Derivatives of [`Ocp::continuous`] and [`Ocp::integrands`] by the problem's own structure, where it has any that
     /// beat dual numbers swept over the whole function.
     fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
         None

@@ -19,6 +19,34 @@ pub enum FormulationError {
         /// Number of states.
         expected: usize,
     },
+    /// Not as many values to begin with as static parameters.
+    #[error(
+        "formulation.parameter_guess has {found} values: expected {expected}, one for each parameter"
+    )]
+    Guesses {
+        /// Number of values.
+        found: usize,
+        /// Number of parameters.
+        expected: usize,
+    },
+    /// A static parameter that begins nowhere.
+    #[error("the guess of parameter {name} is {value}: expected a finite number")]
+    Guess {
+        /// Name of the parameter.
+        name: String,
+        /// What it is.
+        value: f64,
+    },
+    /// A parameter or an integral that cannot be told from others.
+    #[error("{list}[{index}] is named {name:?}: expected a name that no other has")]
+    Name {
+        /// Which list.
+        list: &'static str,
+        /// Place in it.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
     /// No value satisfies bounds.
     #[error(
         "{what} allows no value, it is {lower} to {upper}: expected a lower bound not above the upper one"
@@ -40,6 +68,20 @@ pub enum FormulationError {
         lower: f64,
         /// Upper bound.
         upper: f64,
+    },
+    /// A final time that is not reached.
+    #[error(
+        "formulation.final_time is {lower} to {upper} s: expected one between {earliest} and {latest} s, which t₀ and duration allow"
+    )]
+    FinalTime {
+        /// Lower bound.
+        lower: f64,
+        /// Upper bound.
+        upper: f64,
+        /// The first time that t₀ and duration allow.
+        earliest: f64,
+        /// The last one.
+        latest: f64,
     },
     /// A way-point that is not between its neighbours.
     #[error(
@@ -64,7 +106,7 @@ pub enum FormulationError {
 }
 
 impl Formulation {
-    /// Checks lengths, bounds, duration, way-points and scales.
+    /// Checks lengths, bounds, guesses, times, way-points and scales.
     ///
     /// # Errors
     /// [`FormulationError`] for the first that cannot be.
@@ -74,7 +116,8 @@ impl Formulation {
         }
         self.length("formulation.initial", self.initial.len())?;
         self.length("formulation.terminal", self.terminal.len())?;
-        self.validate_duration()?;
+        self.validate_times()?;
+        self.validate_parameters()?;
         let mut before = 0.0;
         for (index, point) in self.way_points.iter().enumerate() {
             let fraction = point.fraction;
@@ -85,7 +128,14 @@ impl Formulation {
             self.length(&format!("states of way-point {index}"), point.states.len())?;
         }
         let rows = self.way_points.iter().flat_map(|point| &point.rows);
-        let lists = [&self.states, &self.controls, &self.path, &self.boundary];
+        let lists = [
+            &self.states,
+            &self.controls,
+            &self.path,
+            &self.boundary,
+            &self.parameters,
+            &self.integrals,
+        ];
         let quantities = lists.into_iter().flatten().chain(rows);
         quantities.into_iter().try_for_each(Quantity::validate)?;
         for (i, state) in self.states.iter().enumerate() {
@@ -114,13 +164,41 @@ impl Formulation {
         })
     }
 
-    fn validate_duration(&self) -> Result<(), FormulationError> {
+    fn validate_times(&self) -> Result<(), FormulationError> {
         let Interval { lower, upper } = self.duration;
-        let possible = lower >= 0.0 && lower.is_finite() && upper > 0.0 && lower <= upper;
-        match possible {
-            true => Ok(()),
-            false => Err(FormulationError::Duration { lower, upper }),
+        let is_time = lower >= 0.0 && lower.is_finite() && upper > 0.0 && lower <= upper;
+        if !is_time {
+            return Err(FormulationError::Duration { lower, upper });
         }
+        possible(&self.initial_time, || "formulation.initial_time".into())?;
+        possible(&self.final_time, || "formulation.final_time".into())?;
+        let earliest = self.initial_time.lower + lower;
+        let latest = self.initial_time.upper + upper;
+        let Interval { lower, upper } = self.final_time;
+        if lower <= latest && upper >= earliest {
+            return Ok(());
+        }
+        Err(FormulationError::FinalTime {
+            lower,
+            upper,
+            earliest,
+            latest,
+        })
+    }
+
+    fn validate_parameters(&self) -> Result<(), FormulationError> {
+        let (found, expected) = (self.parameter_guess.len(), self.parameters.len());
+        if found != expected {
+            return Err(FormulationError::Guesses { found, expected });
+        }
+        for (parameter, &value) in self.parameters.iter().zip(&self.parameter_guess) {
+            if !value.is_finite() {
+                let name = parameter.name.clone();
+                return Err(FormulationError::Guess { name, value });
+            }
+        }
+        distinct("formulation.parameters", &self.parameters)?;
+        distinct("formulation.integrals", &self.integrals)
     }
 }
 
@@ -138,6 +216,18 @@ impl Quantity {
         }
         Ok(())
     }
+}
+
+/// Asks for a name, and another one, in each of `quantities`.
+fn distinct(list: &'static str, quantities: &[Quantity]) -> Result<(), FormulationError> {
+    for (index, quantity) in quantities.iter().enumerate() {
+        let name = &quantity.name;
+        if name.is_empty() || quantities[..index].iter().any(|other| other.name == *name) {
+            let name = name.clone();
+            return Err(FormulationError::Name { list, index, name });
+        }
+    }
+    Ok(())
 }
 
 fn possible(bounds: &Interval, what: impl FnOnce() -> String) -> Result<(), FormulationError> {

@@ -13,7 +13,7 @@ use super::{
 use crate::largest::largest;
 use crate::nlp::{self, Control, Deadline, Progress, Statistics, Status};
 use crate::ocp::Ocp;
-use crate::transcription::{Discretization, Patterns};
+use crate::transcription::{Discretization, Patterns, integrals};
 use std::fmt;
 use std::time::Instant;
 
@@ -102,19 +102,11 @@ impl<O: Ocp> Refinement<'_, O> {
         start: &Start,
         monitor: &mut dyn FnMut(Event<'_>) -> Control,
     ) -> Result<Outcome, SolveError> {
-        let formulation = self.ocp.formulation();
-        formulation.validate()?;
-        let found = (start.trajectory.states, start.trajectory.controls);
-        if found != formulation.widths() {
-            let expected = formulation.widths();
-            return Err(SolveError::Start { found, expected });
-        }
+        let mut trajectory = self.begun(&start.trajectory)?;
         let law = self.settings.law();
         let deadline = Deadline::after(self.solver.time_limit);
         let mut records: Vec<Record> = Vec::new();
         let mut statistics = Statistics::default();
-        let mut trajectory = self.at_way_points(&start.trajectory);
-        start_check::written(self.ocp, &formulation, &trajectory)?;
         let mut conditioning = Conditioning::new(self.ocp, self.patterns, &trajectory);
         let solver = MeshSolver {
             ocp: self.ocp,
@@ -247,6 +239,26 @@ impl<O: Ocp> Refinement<'_, O> {
             time: began.elapsed(),
             decisions: Vec::new(),
         }
+    }
+
+    /// `start` as the loop begins with it: of this problem, with a node at every way-point and the
+    /// integrals that it has.
+    fn begun(&self, start: &Discretization) -> Result<Discretization, SolveError> {
+        let formulation = self.ocp.formulation();
+        formulation.validate()?;
+        let (found, expected) = ((start.states, start.controls), formulation.widths());
+        if found != expected {
+            return Err(SolveError::Start { found, expected });
+        }
+        let (found, expected) = (start.parameters.len(), formulation.parameters.len());
+        if found != expected {
+            return Err(SolveError::StartParameters { found, expected });
+        }
+        let mut trajectory = self.at_way_points(start);
+        trajectory.initial_time = formulation.initial_time.clamp(trajectory.initial_time);
+        start_check::written(self.ocp, &formulation, &trajectory)?;
+        trajectory.integrals = integrals(self.ocp, &formulation, &trajectory);
+        Ok(trajectory)
     }
 
     /// The trajectory on a mesh with a breakpoint at every way-point; as it is where its mesh has

@@ -3,7 +3,7 @@
 //! Derived in docs/algorithms.md#midpoint-error.
 
 use crate::largest::{largest, raise};
-use crate::ocp::{Ocp, Point};
+use crate::ocp::Ocp;
 use crate::transcription::Discretization;
 
 /// Largest error (28) of every state in every segment; NaN where the rates are NaN at one of the
@@ -62,8 +62,8 @@ pub fn midpoint_errors<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Errors {
                 trajectory.state_in(s, tau, &mut x);
                 trajectory.state_derivative_in(s, tau, &mut dx);
                 trajectory.control_in(s, tau, &mut u);
-                let t = mesh.fraction(s, tau) * trajectory.duration;
-                ocp.continuous(Point { x: &x, u: &u, t }, &mut scratch, &mut f, &mut path);
+                let point = trajectory.point(&x, &u, trajectory.time(mesh.fraction(s, tau)));
+                ocp.continuous(point, &mut scratch, &mut f, &mut path);
                 for i in 0..n {
                     raise(&mut worst[i], (dx[i] - half * f[i]).abs());
                 }

@@ -28,6 +28,16 @@ pub enum SolveError {
         /// Those of the problem.
         expected: (usize, usize),
     },
+    /// The trajectory to begin with has not the problem's static parameters.
+    #[error(
+        "the start has {found} static parameters: expected {expected}, as many as the formulation"
+    )]
+    StartParameters {
+        /// Parameters of the trajectory.
+        found: usize,
+        /// Those of the problem.
+        expected: usize,
+    },
     /// The duration to begin with is no time.
     #[error("the duration of the start is {0} s: expected a finite time above zero")]
     StartDuration(f64),

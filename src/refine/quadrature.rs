@@ -4,7 +4,7 @@
 
 use crate::collocation::Rule;
 use crate::largest::raise;
-use crate::ocp::{Ocp, Point};
+use crate::ocp::Ocp;
 use crate::transcription::Discretization;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
@@ -42,8 +42,8 @@ pub fn quadrature_error<O: Ocp>(ocp: &O, trajectory: &Discretization) -> f64 {
             interpolated.row_mut(j).copy_from_slice(&x);
             if j < points {
                 trajectory.control_in(s, tau, &mut u);
-                let t = mesh.fraction(s, tau) * trajectory.duration;
-                ocp.continuous(Point { x: &x, u: &u, t }, &mut scratch, &mut f, &mut path);
+                let point = trajectory.point(&x, &u, trajectory.time(mesh.fraction(s, tau)));
+                ocp.continuous(point, &mut scratch, &mut f, &mut path);
                 rates.row_mut(j).copy_from_slice(&f);
             }
         }

@@ -1,5 +1,6 @@
 //! An optimal control problem solved by one call.
 
+use super::start::guessed;
 use super::{Outcome, Refinement, Settings, SolveError, Start, start_check};
 use crate::nlp::{self, Control};
 use crate::ocp::Ocp;
@@ -43,7 +44,8 @@ pub fn solve<O: Ocp>(problem: &O, settings: &SolveSettings) -> Result<Outcome, S
 }
 
 /// Solves `problem` from a guess: its duration, and what writes states and controls at a fraction of
-/// it. Both are zero where nothing is written.
+/// it. Both are zero where nothing is written. Static parameters begin at
+/// [`Formulation::parameter_guess`](crate::ocp::Formulation::parameter_guess).
 ///
 /// # Errors
 /// [`SolveError`], where there is nothing to solve.
@@ -81,7 +83,7 @@ fn begin<O: Ocp>(
 
 impl<O: Ocp> Refinement<'_, O> {
     /// A trajectory on the first mesh from a guess: the duration, and what writes states and
-    /// controls at a fraction of it.
+    /// controls at a fraction of it. t₀ and static parameters are guessed by the formulation.
     ///
     /// # Errors
     /// Where the duration is no time, or the settings give no mesh.
@@ -98,8 +100,9 @@ impl<O: Ocp> Refinement<'_, O> {
         let fractions = formulation.way_point_fractions();
         let mesh = self.settings.first_mesh()?.through(&fractions)?;
         let (states, controls) = formulation.widths();
+        let trajectory = Discretization::sample(mesh, duration, states, controls, guess);
         Ok(Start {
-            trajectory: Discretization::sample(mesh, duration, states, controls, guess),
+            trajectory: guessed(&formulation, trajectory),
             iterate: None,
         })
     }

@@ -18,7 +18,7 @@ pub struct Start {
 pub(super) fn straight(formulation: &Formulation, mesh: Mesh) -> Discretization {
     let (states, controls) = formulation.widths();
     let duration = formulation.duration.typical();
-    Discretization::sample(mesh, duration, states, controls, |part, x, u| {
+    let straight = Discretization::sample(mesh, duration, states, controls, |part, x, u| {
         for (i, value) in x.iter_mut().enumerate() {
             let bounds = &formulation.states[i].bounds;
             let ends = [&formulation.initial[i], &formulation.terminal[i]];
@@ -28,7 +28,20 @@ pub(super) fn straight(formulation: &Formulation, mesh: Mesh) -> Discretization 
         for (value, control) in u.iter_mut().zip(&formulation.controls) {
             *value = control.bounds.clamp(0.0);
         }
-    })
+    });
+    guessed(formulation, straight)
+}
+
+/// `trajectory` with t₀ and the static parameters as the formulation guesses them.
+pub(super) fn guessed(formulation: &Formulation, trajectory: Discretization) -> Discretization {
+    let guesses = formulation
+        .parameters
+        .iter()
+        .zip(&formulation.parameter_guess);
+    let parameters = guesses
+        .map(|(parameter, &guess)| parameter.bounds.clamp(guess))
+        .collect();
+    trajectory.with(formulation.initial_time.center(), parameters)
 }
 
 /// Ends of a straight line within `ends`, the bounds along the path included; `instants` are those

@@ -1,8 +1,8 @@
 //! The first evaluation: everything written, everything finite.
 
 use super::SolveError;
-use crate::ocp::{Ends, Formulation, InteriorPoint, Ocp, Point, Quantity};
-use crate::transcription::Discretization;
+use crate::ocp::{Ends, Formulation, InteriorPoint, Ocp, Quantity};
+use crate::transcription::{Discretization, integrals};
 
 /// What outputs hold before the first call: a number that no computation gives.
 const UNTOUCHED: u64 = 0x7ff8_0bad_c0de_0001;
@@ -105,18 +105,25 @@ fn each<O: Ocp>(
         let (x, u) = (start.state(k), start.control(k));
         let mut rates = untouched(formulation.states.len());
         let mut path = untouched(formulation.path.len());
-        let value = ocp.continuous(Point { x, u, t }, &mut scratch, &mut rates, &mut path);
+        let mut integrands = untouched(formulation.integrals.len());
+        let point = start.point(x, u, t);
+        let value = ocp.continuous(point, &mut scratch, &mut rates, &mut path);
+        if !integrands.is_empty() {
+            ocp.integrands(point, &mut scratch, &mut integrands);
+        }
         let function = "continuous";
         ask_list(function, "rates", &formulation.states, &rates, t)?;
         ask_list(function, "path", &formulation.path, &path, t)?;
         ask_list(function, "", &cost("running cost"), &[value], t)?;
+        let integrals = &formulation.integrals;
+        ask_list("integrands", "integrands", integrals, &integrands, t)?;
     }
     let last = start.mesh.points();
     let mut rows = untouched(formulation.boundary.len());
+    let integrals = integrals(ocp, formulation, start);
     let ends = Ends {
-        initial: start.state(0),
-        terminal: start.state(last),
-        duration: start.duration,
+        integrals: &integrals,
+        ..start.ends()
     };
     let value = ocp.boundary(ends, &mut scratch, &mut rows);
     ask_list(
@@ -138,9 +145,14 @@ fn each<O: Ocp>(
             continue;
         };
         let mut rows = untouched(point.rows.len());
-        let (x, t) = (start.state(k), times[k]);
-        ocp.way_point(InteriorPoint { way_point, x, t }, &mut scratch, &mut rows);
-        ask_list("way_point", "rows", &point.rows, &rows, t)?;
+        let passed = InteriorPoint {
+            way_point,
+            x: start.state(k),
+            parameters: &start.parameters,
+            t: times[k],
+        };
+        ocp.way_point(passed, &mut scratch, &mut rows);
+        ask_list("way_point", "rows", &point.rows, &rows, passed.t)?;
     }
     Ok(())
 }

@@ -223,14 +223,30 @@ impl<'a> Duals<'a> {
             to.multipliers[row..row + rows]
                 .copy_from_slice(&self.iterate.multipliers[from..from + rows]);
         }
-        let tail = layout.states + usize::from(layout.free_duration && old.free_duration);
-        for i in 0..tail {
-            let (v, w) = (layout.state(layout.points, i), old.state(old.points, i));
+        let final_states =
+            (0..layout.states).map(|i| (layout.state(layout.points, i), old.state(old.points, i)));
+        let duration = (layout.free_duration && old.free_duration)
+            .then(|| (layout.duration(), old.duration()));
+        let start = (layout.free_initial_time && old.free_initial_time)
+            .then(|| (layout.initial_time(), old.initial_time()));
+        let parameters = (0..Self::common(layout.parameters, old.parameters))
+            .map(|i| (layout.parameter(i), old.parameter(i)));
+        let integrals = 0..Self::common(layout.integrals, old.integrals);
+        let values = integrals
+            .clone()
+            .map(|i| (layout.integral(i), old.integral(i)));
+        let variables = final_states.chain(duration).chain(start);
+        for (v, w) in variables.chain(parameters).chain(values) {
             to.lower_multipliers[v] = self.iterate.lower_multipliers[w];
             to.upper_multipliers[v] = self.iterate.upper_multipliers[w];
         }
-        for b in 0..Self::common(layout.boundary, old.boundary) {
-            to.multipliers[layout.boundary(b)] = self.iterate.multipliers[old.boundary(b)];
+        let boundary = (0..Self::common(layout.boundary, old.boundary))
+            .map(|b| (layout.boundary(b), old.boundary(b)));
+        let quadratures = integrals.map(|i| (layout.integral_row(i), old.integral_row(i)));
+        let final_time = (layout.bounded_final_time && old.bounded_final_time)
+            .then(|| (layout.final_time_row(), old.final_time_row()));
+        for (r, s) in boundary.chain(quadratures).chain(final_time) {
+            to.multipliers[r] = self.iterate.multipliers[s];
         }
     }
 }
@@ -240,9 +256,10 @@ impl<'a> Duals<'a> {
 ///
 /// `None` where no layout has these lengths.
 pub(super) fn saved_layout(saved: &Iterate, layout: &Layout) -> Option<Layout> {
-    if layout.way_point_nodes().next().is_some() {
-        // The number of rows does not say how many belong to way-points: only the same layout will
-        // do.
+    let whole = layout.integrals > 0 || layout.bounded_final_time;
+    if whole || layout.way_point_nodes().next().is_some() {
+        // The number of rows does not say how many belong to way-points or to the whole: only the
+        // same layout will do.
         let same = saved.x.len() == layout.variables() && saved.has_multipliers(layout.rows());
         return same.then(|| layout.clone());
     }
@@ -302,13 +319,15 @@ mod tests {
             boundary: vec![],
             initial: vec![Interval::FREE],
             terminal: vec![Interval::FREE],
-            duration: Interval::fixed(1.0),
             way_points: vec![WayPoint {
                 fraction: 0.4,
                 states: vec![Interval::new(0.0, 0.5)],
                 rows: vec![Quantity::new("row", Interval::FREE)],
             }],
-        };
+            ..Formulation::between(Interval::new(0.0, 1.0), Interval::new(1.5, 2.0))
+        }
+        .parameter(Quantity::new("p", Interval::FREE), 0.0)
+        .integral(Quantity::new("q", Interval::FREE));
         let mesh = |points: &[usize]| Mesh::new(vec![0.0, 0.4, 1.0], points).unwrap();
         let (coarse, fine) = (mesh(&[3, 4]), mesh(&[7, 5]));
         let layouts = [&coarse, &fine].map(|mesh| Layout::new(&formulation, mesh));
@@ -324,6 +343,12 @@ mod tests {
             iterate.multipliers[from.defect(k, 0)] = weight.defect * costate(k, &coarse);
         }
         let node = coarse.start(1);
+        // What belongs to no instant: T, t₀, a parameter, an integral, the rows of that and of t_f.
+        for (value, variable) in (10..).zip(from.border()) {
+            iterate.upper_multipliers[variable] = f64::from(value);
+        }
+        iterate.multipliers[from.integral_row(0)] = 8.0;
+        iterate.multipliers[from.final_time_row()] = 9.0;
         iterate.multipliers[from.way_point(0, 0)] = 5.0;
         iterate.upper_multipliers[from.state(node, 0)] = 7.0;
         let read = Duals::new(&coarse, from, &iterate).on(&fine, to, vec![0.0; to.variables()]);
@@ -332,6 +357,11 @@ mod tests {
             assert!((found - costate(k, &fine)).abs() < 1e-14, "{k}: {found}");
         }
         assert_eq!(read.multipliers[to.way_point(0, 0)], 5.0);
+        assert_eq!(
+            read.upper_multipliers[to.border()],
+            [10.0, 11.0, 12.0, 13.0]
+        );
+        assert_eq!(read.multipliers[to.integral_row(0)..], [8.0, 9.0]);
         for k in 0..=fine.points() {
             let expected = if k == fine.start(1) { 7.0 } else { 0.0 };
             assert_eq!(read.upper_multipliers[to.state(k, 0)], expected, "{k}");

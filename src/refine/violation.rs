@@ -2,7 +2,7 @@
 //!
 //! Derived in docs/algorithms.md#bounds-between-the-nodes.
 
-use crate::ocp::{Formulation, Ocp, Point, Quantity};
+use crate::ocp::{Formulation, Ocp, Quantity};
 use crate::transcription::Discretization;
 
 /// What is bounded.
@@ -72,9 +72,9 @@ pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Viola
             for (tau, stands_for) in places(nodes, segment + 1 == mesh.segments()) {
                 trajectory.state_in(segment, tau, &mut x);
                 trajectory.control_in(segment, tau, &mut u);
-                let t = mesh.fraction(segment, tau) * trajectory.duration;
+                let t = trajectory.time(mesh.fraction(segment, tau));
                 if path_rows {
-                    let point = Point { x: &x, u: &u, t };
+                    let point = trajectory.point(&x, &u, t);
                     ocp.continuous(point, &mut scratch, &mut rates, &mut path);
                 }
                 for (worst, &(what, quantity)) in worst.iter_mut().zip(&quantities) {

@@ -199,6 +199,9 @@ fn on_mesh(mesh: Mesh, trajectory: &Trajectory) -> Discretization {
         .collect();
     Discretization {
         duration: trajectory.t[nodes - 1],
+        initial_time: 0.0,
+        parameters: Vec::new(),
+        integrals: Vec::new(),
         states: eta[0].len() + theta[0].len() + rates[0].len(),
         controls: u[0].len(),
         x,

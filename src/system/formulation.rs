@@ -160,5 +160,6 @@ pub(crate) fn formulation<Sp: Space>(
             .collect(),
         duration: task.duration,
         way_points: way_points.iter().map(WayPointRows::formulate).collect(),
+        ..Formulation::default()
     }
 }

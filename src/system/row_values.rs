@@ -9,7 +9,7 @@ use super::torques::torques;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::ocp::{Ends, Ocp, Point};
+use crate::ocp::Ocp;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
 
@@ -47,7 +47,8 @@ impl<Sp: Space> FreeFloating<Sp> {
             .map(|k| {
                 let mut rows = vec![0.0; self.path_rows().len()];
                 let (x, u, t) = (trajectory.state(k), trajectory.control(k), times[k]);
-                self.continuous(Point { x, u, t }, &mut scratch, &mut rates, &mut rows);
+                let point = trajectory.point(x, u, t);
+                self.continuous(point, &mut scratch, &mut rates, &mut rows);
                 rows
             })
             .collect()
@@ -72,12 +73,7 @@ impl<Sp: Space> FreeFloating<Sp> {
     /// Values of the boundary rows at the ends of `trajectory`.
     pub fn end_values(&self, trajectory: &Discretization) -> Vec<f64> {
         let mut rows = vec![0.0; self.bounded.boundary.len()];
-        let ends = Ends {
-            initial: trajectory.state(0),
-            terminal: trajectory.state(trajectory.mesh.points()),
-            duration: trajectory.duration,
-        };
-        self.boundary(ends, &mut self.scratch::<f64>(), &mut rows);
+        self.boundary(trajectory.ends(), &mut self.scratch::<f64>(), &mut rows);
         rows
     }
 

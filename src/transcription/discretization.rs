@@ -1,14 +1,21 @@
 //! A trajectory on a mesh: node values with the polynomials through them.
 
 use crate::collocation::Mesh;
+use crate::ocp::{Ends, Point};
 
 /// States at all nodes and controls at all collocation points of a mesh, eq. (22).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Discretization {
     /// The mesh.
     pub mesh: Mesh,
+    /// t₀, s.
+    pub initial_time: f64,
     /// Duration t_f − t₀, s.
     pub duration: f64,
+    /// Static parameters.
+    pub parameters: Vec<f64>,
+    /// Values of the integrals, of a solution; empty where they are not known yet.
+    pub integrals: Vec<f64>,
     /// Number of states.
     pub states: usize,
     /// Number of controls.
@@ -21,7 +28,7 @@ pub struct Discretization {
 
 impl Discretization {
     /// Samples `trajectory` on `mesh`: it is given the fraction of the duration and writes states
-    /// and controls.
+    /// and controls. t₀ is 0, and there are no static parameters.
     pub fn sample(
         mesh: Mesh,
         duration: f64,
@@ -42,7 +49,10 @@ impl Discretization {
         u.truncate(points * controls);
         Self {
             mesh,
+            initial_time: 0.0,
             duration,
+            parameters: Vec::new(),
+            integrals: Vec::new(),
             states,
             controls,
             x,
@@ -50,9 +60,18 @@ impl Discretization {
         }
     }
 
+    /// The same from `initial_time` on, with these static parameters.
+    pub fn with(self, initial_time: f64, parameters: Vec<f64>) -> Self {
+        Self {
+            initial_time,
+            parameters,
+            ..self
+        }
+    }
+
     /// The same trajectory on another mesh.
     pub fn resample(&self, mesh: Mesh) -> Self {
-        Self::sample(
+        let sampled = Self::sample(
             mesh,
             self.duration,
             self.states,
@@ -60,7 +79,11 @@ impl Discretization {
             |fraction, x, u| {
                 self.at_fraction(fraction, x, u);
             },
-        )
+        );
+        Self {
+            integrals: self.integrals.clone(),
+            ..sampled.with(self.initial_time, self.parameters.clone())
+        }
     }
 
     /// The same with the states in units of `scales`, one a state.
@@ -126,8 +149,35 @@ impl Discretization {
         self.mesh
             .node_fractions()
             .into_iter()
-            .map(|fraction| fraction * self.duration)
+            .map(|fraction| self.time(fraction))
             .collect()
+    }
+
+    /// Time at a fraction of the duration, s.
+    pub fn time(&self, fraction: f64) -> f64 {
+        self.initial_time + fraction * self.duration
+    }
+
+    /// The instant `t` on this trajectory, with the states `x` and the controls `u` there.
+    pub fn point<'a>(&'a self, x: &'a [f64], u: &'a [f64], t: f64) -> Point<'a, f64> {
+        Point {
+            x,
+            u,
+            parameters: &self.parameters,
+            t,
+        }
+    }
+
+    /// Both ends.
+    pub fn ends(&self) -> Ends<'_, f64> {
+        Ends {
+            initial: self.state(0),
+            terminal: self.state(self.mesh.points()),
+            parameters: &self.parameters,
+            integrals: &self.integrals,
+            initial_time: self.initial_time,
+            duration: self.duration,
+        }
     }
 }
 

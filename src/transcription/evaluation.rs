@@ -2,7 +2,7 @@
 
 use super::functions::{Boundary, Node};
 use super::node_derivatives::NodeDerivatives;
-use super::points::Points;
+use super::points::{Points, Shared};
 use super::way_point::{WayPointEvaluation, way_points};
 use super::{Layout, Patterns};
 use crate::autodiff::{Function, SparseDerivatives};
@@ -14,6 +14,7 @@ use crate::ocp::{Formulation, Ocp};
 pub(super) struct Evaluation<'a, O: Ocp> {
     layout: Layout,
     fixed_duration: f64,
+    fixed_initial_time: f64,
     pub node: Node<'a, O>,
     pub ends: Boundary<'a, O>,
     points: Points<'a, O>,
@@ -47,6 +48,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         Self {
             way_points: way_points(ocp, formulation, patterns, &layout),
             fixed_duration: formulation.duration.lower,
+            fixed_initial_time: formulation.initial_time.lower,
             values: vec![0.0; layout.points * node.outputs()],
             first: vec![0.0; layout.points * node_derivatives.jacobian_nonzeros()],
             points: Points::new(&node, node_derivatives, patterns, fractions),
@@ -75,6 +77,23 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         }
     }
 
+    pub fn initial_time(&self, x: &[f64]) -> f64 {
+        if self.layout.free_initial_time {
+            x[self.layout.initial_time()]
+        } else {
+            self.fixed_initial_time
+        }
+    }
+
+    /// What all points share at `x`.
+    fn shared<'x>(&self, x: &'x [f64]) -> Shared<'x> {
+        Shared {
+            initial_time: self.initial_time(x),
+            duration: self.duration(x),
+            parameters: &x[self.layout.parameter(0)..self.layout.integral(0)],
+        }
+    }
+
     /// Fraction of the duration of point `k`: the derivative of its time by the duration.
     pub fn fraction(&self, k: usize) -> f64 {
         self.points.fractions()[k]
@@ -85,7 +104,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         self.points.derivatives()
     }
 
-    /// Outputs (f, C, ℒ) of point `k`.
+    /// Outputs (f, C, ℒ, g) of point `k`.
     pub fn outputs(&self, k: usize) -> &[f64] {
         let width = self.node.outputs();
         &self.values[k * width..(k + 1) * width]
@@ -102,7 +121,11 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         let last = self.layout.state(self.layout.points, 0);
         self.end_inputs[..n].copy_from_slice(&x[..n]);
         self.end_inputs[n..2 * n].copy_from_slice(&x[last..last + n]);
-        self.end_inputs[2 * n] = self.duration(x);
+        let constants = &x[self.layout.parameter(0)..];
+        let times = 2 * n + constants.len();
+        self.end_inputs[2 * n..times].copy_from_slice(constants);
+        self.end_inputs[times] = self.initial_time(x);
+        self.end_inputs[times + 1] = self.duration(x);
     }
 
     /// Makes sure that values are those at `x`.
@@ -110,14 +133,13 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         if self.have_values {
             return;
         }
-        let duration = self.duration(x);
-        self.points
-            .values(&self.node, x, duration, &mut self.values);
+        let shared = self.shared(x);
+        self.points.values(&self.node, x, shared, &mut self.values);
         self.load_ends(x);
         self.end_derivatives
             .values(&self.ends, &self.end_inputs, &mut self.end_values);
         for point in &mut self.way_points {
-            point.evaluate(x, duration);
+            point.evaluate(x, shared);
         }
         self.have_values = true;
     }
@@ -127,14 +149,14 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         if self.have_first {
             return Ok(());
         }
-        let duration = self.duration(x);
+        let shared = self.shared(x);
         self.points
-            .jacobians(&self.node, x, duration, &mut self.first);
+            .jacobians(&self.node, x, shared, &mut self.first);
         self.load_ends(x);
         self.end_derivatives
             .jacobian(&self.ends, &self.end_inputs, &mut self.end_first);
         for point in &mut self.way_points {
-            point.differentiate(x, duration);
+            point.differentiate(x, shared);
         }
         if !self
             .first
@@ -153,8 +175,14 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
 
     /// Weighted Hessians of all points into `out`, `weights` being of all points as well.
     pub fn node_hessians(&mut self, x: &[f64], weights: &[f64], out: &mut [f64]) {
-        let duration = self.duration(x);
-        self.points.hessians(&self.node, x, duration, weights, out);
+        let shared = self.shared(x);
+        self.points.hessians(&self.node, x, shared, weights, out);
+    }
+
+    /// Weighted Hessian of way-point `w` into `out`.
+    pub fn way_point_hessian(&mut self, w: usize, x: &[f64], weights: &[f64], out: &mut [f64]) {
+        let shared = self.shared(x);
+        self.way_points[w].hessian(x, shared, weights, out);
     }
 
     /// Weighted Hessian of the ends into `out`.

@@ -2,20 +2,25 @@
 
 use super::Layout;
 use super::evaluation::Evaluation;
-use super::jacobian::{end_column, half_widths, quadrature};
+use super::jacobian::end_column;
+use super::quadrature::{half_widths, quadrature};
 use crate::collocation::Mesh;
 use crate::nlp::Undefined;
 use crate::ocp::Ocp;
 use std::collections::HashMap;
 
-/// Second derivatives of one point that involve the duration T through t = αT and the factor
-/// T·width/2. Indices into the point's own derivatives.
+/// Second derivatives of one point that involve the duration T through t = t₀ + αT and the factor
+/// T·width/2, or t₀ through t. Indices into the point's own derivatives.
 #[derive(Debug, Default)]
-struct DurationTerms {
+struct TimeTerms {
     /// (input, slot in the programme's Hessian for (T, input)), one list a point.
     coupling: Vec<Vec<(usize, usize)>>,
     /// Slot of (T, T), where the problem depends on time.
     own: Option<usize>,
+    /// (nonzero of the point's block, slot for (t₀, input) or (t₀, t₀)), one list a point.
+    initial: Vec<Vec<(usize, usize)>>,
+    /// Slot of (t₀, T), where both are free and the problem depends on time.
+    cross: Option<usize>,
 }
 
 /// What the Lagrangian σf + Σ λg is made with.
@@ -38,7 +43,7 @@ pub(super) struct Hessian {
     end_slots: Vec<usize>,
     /// Slots and block of each way-point.
     way_points: Vec<(Vec<usize>, Vec<f64>)>,
-    duration: DurationTerms,
+    time: TimeTerms,
     half_width: Vec<f64>,
     quadrature: Vec<f64>,
     /// Weights of every point's outputs, by points.
@@ -61,7 +66,7 @@ impl Hessian {
                 node_slots.push(if i == time {
                     usize::MAX
                 } else {
-                    slots.slot(layout.state(k, i), layout.state(k, j))
+                    slots.slot(layout.input(k, i), layout.input(k, j))
                 });
             }
         }
@@ -72,7 +77,7 @@ impl Hessian {
             .iter()
             .map(|&(i, j)| {
                 let (a, b) = (end_column(layout, i), end_column(layout, j));
-                slots.slot(a.max(b), a.min(b))
+                slots.either(a, b)
             })
             .collect();
         let way_points = evaluation
@@ -81,28 +86,14 @@ impl Hessian {
             .map(|point| {
                 let place = |&(i, j): &(usize, usize)| {
                     let (a, b) = (point.columns[i], point.columns[j]);
-                    slots.slot(a.max(b), a.min(b))
+                    slots.either(a, b)
                 };
                 let slots: Vec<usize> = point.sparsity().hessian.iter().map(place).collect();
                 let block = vec![0.0; slots.len()];
                 (slots, block)
             })
             .collect();
-        let mut duration = DurationTerms::default();
-        if layout.free_duration {
-            let last = layout.duration();
-            duration.coupling = (0..layout.points)
-                .map(|k| {
-                    coupled_inputs(layout, evaluation, k)
-                        .into_iter()
-                        .map(|i| (i, slots.slot(last, layout.state(k, i))))
-                        .collect()
-                })
-                .collect();
-            if sparsity.columns().contains(&time) {
-                duration.own = Some(slots.slot(last, last));
-            }
-        }
+        let terms = TimeTerms::new(layout, evaluation, &mut slots);
         Self {
             layout: layout.clone(),
             rows: slots.rows,
@@ -110,7 +101,7 @@ impl Hessian {
             node_slots,
             end_slots,
             way_points,
-            duration,
+            time: terms,
             half_width: half_widths(mesh),
             quadrature: quadrature(mesh),
             weights: vec![0.0; layout.points * sparsity.jacobian.len()],
@@ -145,19 +136,26 @@ impl Hessian {
                 self.duration_terms(k, duration, evaluation, values);
             }
         }
+        let width = evaluation.node_derivatives().sparsity().hessian.len();
+        for (k, initial) in self.time.initial.iter().enumerate() {
+            for &(nonzero, slot) in initial {
+                values[slot] += self.blocks[k * width + nonzero];
+            }
+        }
         let layout = &self.layout;
         let (end_rows, end_cost) = self.end_weights.split_at_mut(layout.boundary);
-        end_rows.copy_from_slice(&multipliers.rows[layout.boundary(0)..]);
+        let boundary = layout.boundary(0)..layout.integral_row(0);
+        end_rows.copy_from_slice(&multipliers.rows[boundary]);
         end_cost[0] = multipliers.objective;
         evaluation.end_hessian(x, &self.end_weights, &mut self.end_block);
         for (h, &slot) in self.end_block.iter().zip(&self.end_slots) {
             values[slot] += h;
         }
-        let points = evaluation.way_points.iter_mut().zip(&mut self.way_points);
-        for (w, (point, (slots, block))) in points.enumerate() {
+        for (w, (slots, block)) in self.way_points.iter_mut().enumerate() {
             let first = layout.way_point(w, 0);
-            let weights = &multipliers.rows[first..first + point.values.len()];
-            point.hessian(x, duration, weights, block);
+            let rows = evaluation.way_points[w].values.len();
+            let weights = &multipliers.rows[first..first + rows];
+            evaluation.way_point_hessian(w, x, weights, block);
             for (h, &slot) in block.iter().zip(slots.iter()) {
                 values[slot] += h;
             }
@@ -174,7 +172,8 @@ impl Hessian {
     /// Weights of point `k`'s outputs in the Lagrangian.
     fn weigh(&mut self, k: usize, duration: f64, multipliers: Multipliers<'_>) {
         let layout = &self.layout;
-        let outputs = layout.states + layout.path + 1;
+        let cost = layout.states + layout.path;
+        let outputs = cost + 1 + layout.integrals;
         let half = duration * self.half_width[k];
         let weights = &mut self.weights[k * outputs..(k + 1) * outputs];
         let first = layout.defect(k, 0);
@@ -186,11 +185,16 @@ impl Hessian {
                 multiplier
             };
         }
-        weights[outputs - 1] = multipliers.objective * duration * self.quadrature[k];
+        weights[cost] = multipliers.objective * duration * self.quadrature[k];
+        let integrals = &multipliers.rows[layout.integral_row(0)..layout.final_time_row()];
+        for (weight, multiplier) in weights[cost + 1..].iter_mut().zip(integrals) {
+            *weight = -(duration * self.quadrature[k]) * multiplier;
+        }
     }
 
-    /// Second derivatives with the duration: with ψ = T·g(v, αT) + c(v, αT), where g gathers
-    /// defects and cost,  ψ_vT = g_v + αT·g_vt + α·c_vt and ψ_TT = 2α·g_t + α²(T·g_tt + c_tt).
+    /// Second derivatives with the duration: with ψ = T·g(v, t) + c(v, t) and t = t₀ + αT, where g
+    /// gathers defects, cost and integrals, ψ_vT = g_v + αT·g_vt + α·c_vt,
+    /// ψ_TT = 2α·g_t + α²(T·g_tt + c_tt) and ψ_t₀T = g_t + α(T·g_tt + c_tt).
     fn duration_terms<O: Ocp>(
         &mut self,
         k: usize,
@@ -216,19 +220,63 @@ impl Hessian {
             }
         }
         let mut own = 2.0 * alpha * self.by_input[time];
+        let mut cross = self.by_input[time];
         for (h, &(i, j)) in block.iter().zip(&sparsity.hessian) {
             if i == time && j == time {
                 own += alpha * alpha * h;
+                cross += alpha * h;
             } else if i == time {
                 self.by_input[j] += alpha * h;
             }
         }
-        for &(input, slot) in &self.duration.coupling[k] {
+        for &(input, slot) in &self.time.coupling[k] {
             values[slot] += self.by_input[input];
         }
-        if let Some(slot) = self.duration.own {
+        if let Some(slot) = self.time.own {
             values[slot] += own;
         }
+        if let Some(slot) = self.time.cross {
+            values[slot] += cross;
+        }
+    }
+}
+
+impl TimeTerms {
+    fn new<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, slots: &mut Slots) -> Self {
+        let sparsity = evaluation.node_derivatives().sparsity();
+        let time = evaluation.node.time();
+        let depends = sparsity.columns().contains(&time);
+        let mut terms = Self::default();
+        if layout.free_duration {
+            let last = layout.duration();
+            terms.coupling = (0..layout.points)
+                .map(|k| {
+                    coupled_inputs(layout, evaluation, k)
+                        .into_iter()
+                        .map(|i| (i, slots.either(last, layout.input(k, i))))
+                        .collect()
+                })
+                .collect();
+            terms.own = depends.then(|| slots.slot(last, last));
+        }
+        if layout.free_initial_time {
+            let first = layout.initial_time();
+            let of_time = || sparsity.hessian.iter().enumerate();
+            terms.initial = (0..layout.points)
+                .map(|k| {
+                    of_time()
+                        .filter(|(_, (i, _))| *i == time)
+                        .map(|(nonzero, &(_, j))| match j == time {
+                            true => (nonzero, slots.slot(first, first)),
+                            false => (nonzero, slots.either(first, layout.input(k, j))),
+                        })
+                        .collect()
+                })
+                .collect();
+            let both = depends && layout.free_duration;
+            terms.cross = both.then(|| slots.either(first, layout.duration()));
+        }
+        terms
     }
 }
 
@@ -262,6 +310,11 @@ struct Slots {
 }
 
 impl Slots {
+    /// The slot of two variables in the lower triangle.
+    fn either(&mut self, a: usize, b: usize) -> usize {
+        self.slot(a.max(b), a.min(b))
+    }
+
     fn slot(&mut self, row: usize, column: usize) -> usize {
         *self.known.entry((row, column)).or_insert_with(|| {
             self.rows.push(row);

@@ -6,9 +6,11 @@ use std::sync::Arc;
 
 /// Order of variables and rows: in time, so that the programme's matrices are banded.
 ///
-/// Variables: states then controls of each collocation point, the states at t_f, and the duration
-/// where it is free. Rows: those of the way-point that stands at a collocation point, the point's
-/// defects, its path rows, and so on from point to point; then boundary rows.
+/// Variables: states then controls of each collocation point, the states at t_f, and the border,
+/// which couples all points: the duration and t₀ where they are free, static parameters, integrals.
+/// Rows: those of the way-point that stands at a collocation point, the point's defects, its path
+/// rows, and so on from point to point; then boundary rows, one row for each integral, and that of
+/// the final time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
     /// Number of states.
@@ -23,6 +25,14 @@ pub struct Layout {
     pub points: usize,
     /// Whether the duration is a variable.
     pub free_duration: bool,
+    /// Whether t₀ is a variable.
+    pub free_initial_time: bool,
+    /// Whether t_f has a row of its own.
+    pub bounded_final_time: bool,
+    /// Number of static parameters.
+    pub parameters: usize,
+    /// Number of integrals.
+    pub integrals: usize,
     /// Way-points, rising in time.
     pub(crate) way_points: Arc<[WayPointRows]>,
 }
@@ -63,6 +73,10 @@ pub enum Row {
     },
     /// A boundary row.
     Boundary(usize),
+    /// An integral less its quadrature.
+    Integral(usize),
+    /// t₀ + T.
+    FinalTime,
 }
 
 impl Layout {
@@ -89,18 +103,22 @@ impl Layout {
             boundary: formulation.boundary.len(),
             points: mesh.points(),
             free_duration: !formulation.duration.is_fixed(),
+            free_initial_time: !formulation.initial_time.is_fixed(),
+            bounded_final_time: formulation.has_free_time() && !formulation.final_time.is_free(),
+            parameters: formulation.parameters.len(),
+            integrals: formulation.integrals.len(),
             way_points: formulation.way_points.iter().map(rows_of).collect(),
         }
     }
 
     /// Number of variables.
     pub fn variables(&self) -> usize {
-        self.points * (self.states + self.controls) + self.states + usize::from(self.free_duration)
+        self.integral(self.integrals)
     }
 
     /// Number of constraint rows.
     pub fn rows(&self) -> usize {
-        self.boundary(self.boundary)
+        self.final_time_row() + usize::from(self.bounded_final_time)
     }
 
     /// State `i` at node `k`; node `points` is t_f.
@@ -116,6 +134,34 @@ impl Layout {
     /// The duration; only where it is free.
     pub fn duration(&self) -> usize {
         self.state(self.points, self.states)
+    }
+
+    /// t₀; only where it is free.
+    pub fn initial_time(&self) -> usize {
+        self.duration() + usize::from(self.free_duration)
+    }
+
+    /// Static parameter `i`.
+    pub fn parameter(&self, i: usize) -> usize {
+        self.initial_time() + usize::from(self.free_initial_time) + i
+    }
+
+    /// Integral `i`.
+    pub fn integral(&self, i: usize) -> usize {
+        self.parameter(self.parameters + i)
+    }
+
+    /// The variables that couple all points.
+    pub fn border(&self) -> std::ops::Range<usize> {
+        self.duration()..self.variables()
+    }
+
+    /// The variable behind input `input` of point `k`, which is not the time.
+    pub(super) fn input(&self, k: usize, input: usize) -> usize {
+        match input.checked_sub(self.states + self.controls) {
+            None => self.state(k, input),
+            Some(parameter) => self.parameter(parameter),
+        }
     }
 
     /// Defect of state `i` at point `k`.
@@ -147,9 +193,23 @@ impl Layout {
         self.points * (self.states + self.path) + shift + b
     }
 
+    /// Row of integral `i`.
+    pub fn integral_row(&self, i: usize) -> usize {
+        self.boundary(self.boundary) + i
+    }
+
+    /// Row of t_f; only where it is bounded.
+    pub fn final_time_row(&self) -> usize {
+        self.integral_row(self.integrals)
+    }
+
     /// What row `index` is.
     pub fn row(&self, index: usize) -> Row {
-        if index >= self.boundary(0) {
+        if index >= self.final_time_row() {
+            return Row::FinalTime;
+        } else if index >= self.integral_row(0) {
+            return Row::Integral(index - self.integral_row(0));
+        } else if index >= self.boundary(0) {
             return Row::Boundary(index - self.boundary(0));
         }
         let mut shift = 0;

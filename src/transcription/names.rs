@@ -28,8 +28,8 @@ impl Names {
     }
 
     pub fn variable(&self, layout: &Layout, index: usize) -> String {
-        if layout.free_duration && index == layout.duration() {
-            return "duration".into();
+        if layout.border().contains(&index) {
+            return self.in_border(layout, index);
         }
         let width = layout.states + layout.controls;
         let (k, i) = (index / width, index % width);
@@ -39,6 +39,23 @@ impl Names {
             &self.formulation.controls[i - layout.states]
         };
         format!("{}, {}", quantity.name, self.place(layout, k))
+    }
+
+    fn in_border(&self, layout: &Layout, index: usize) -> String {
+        let formulation = &self.formulation;
+        if layout.free_duration && index == layout.duration() {
+            "duration".into()
+        } else if layout.free_initial_time && index == layout.initial_time() {
+            "initial time".into()
+        } else if index < layout.integral(0) {
+            formulation.parameters[index - layout.parameter(0)]
+                .name
+                .clone()
+        } else {
+            formulation.integrals[index - layout.integral(0)]
+                .name
+                .clone()
+        }
     }
 
     pub fn row(&self, layout: &Layout, index: usize) -> String {
@@ -57,6 +74,8 @@ impl Names {
                 formulation.way_points[way_point].rows[row].name.clone()
             }
             Row::Boundary(row) => formulation.boundary[row].name.clone(),
+            Row::Integral(row) => format!("quadrature of {}", formulation.integrals[row].name),
+            Row::FinalTime => "final time".into(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::functions::Node;
 use crate::autodiff::{Function, SparseDerivatives, Sparsity};
-use crate::ocp::{Ocp, Point, PointDerivatives};
+use crate::ocp::{Ocp, PointDerivatives};
 
 /// Values, nonzeros of the Jacobian and of the weighted Hessian of a [`Node`]: what one thread
 /// needs, allocated once.
@@ -80,7 +80,7 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
                 ..
             } => {
                 let dense = &mut dense[..node.outputs() * node.inputs()];
-                derivatives.jacobian(point(node, v), dense);
+                derivatives.jacobian(node.point(v), dense);
                 pick(dense, jacobian, out);
             }
         }
@@ -97,17 +97,11 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
                 ..
             } => {
                 let dense = &mut dense[..node.inputs() * node.inputs()];
-                derivatives.hessian(point(node, v), weights, dense);
+                derivatives.hessian(node.point(v), weights, dense);
                 pick(dense, hessian, out);
             }
         }
     }
-}
-
-fn point<'v, O: Ocp>(node: &Node<'_, O>, v: &'v [f64]) -> Point<'v, f64> {
-    let (x, u) = v[..node.time()].split_at(node.states);
-    let t = v[node.time()];
-    Point { x, u, t }
 }
 
 fn pick(dense: &[f64], from: &[usize], out: &mut [f64]) {

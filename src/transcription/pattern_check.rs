@@ -3,7 +3,7 @@
 use super::Discretization;
 use super::functions::{Boundary, Node, WayPoint};
 use super::node_derivatives::NodeDerivatives;
-use super::patterns::Patterns;
+use super::patterns::{Patterns, end_times, path_times, used};
 use crate::autodiff::{Function, SparseDerivatives, Sparsity};
 use crate::ocp::{Formulation, Ocp};
 
@@ -26,25 +26,28 @@ impl Patterns {
         trajectory: &Discretization,
     ) -> Option<Self> {
         let mut wide = self.clone();
-        let duration = formulation.duration;
         let last = trajectory.mesh.points();
-        let (states, time) = (|k| trajectory.state(k), [trajectory.duration]);
+        let states = |k| trajectory.state(k);
+        let times = [trajectory.initial_time, trajectory.duration];
+        let (parameters, integrals) = (&trajectory.parameters[..], &trajectory.integrals[..]);
         let ends = Boundary::new(ocp, formulation);
-        let in_ends = Check::new(&ends, !duration.is_fixed());
-        if in_ends.denies(&self.ends, &[states(0), states(last), &time].concat()) {
+        let in_ends = Check::new(&ends, &end_times(formulation));
+        let at = [states(0), states(last), parameters, integrals, &times].concat();
+        if in_ends.denies(&self.ends, &at) {
             wide.ends = in_ends.dense;
         }
         for (w, point) in formulation.way_points.iter().enumerate() {
             let function = WayPoint::new(ocp, formulation, w);
-            let check = Check::new(&function, !duration.is_fixed());
+            let check = Check::new(&function, &end_times(formulation));
             let node = trajectory.mesh.node_at(point.fraction);
-            let at = node.map(|k| [states(k), &time].concat());
+            let at = node.map(|k| [states(k), parameters, &times].concat());
             if at.is_some_and(|at| check.denies(&self.way_points[w], &at)) {
                 wide.way_points[w] = check.dense;
             }
         }
         let node = Node::new(ocp, formulation);
-        if let Some(dense) = denied_on_path(&node, &self.node, trajectory, !duration.is_fixed()) {
+        let time = path_times(formulation);
+        if let Some(dense) = denied_on_path(&node, &self.node, trajectory, &time) {
             wide.node = dense;
         }
         (wide != *self).then_some(wide)
@@ -56,9 +59,9 @@ fn denied_on_path<O: Ocp>(
     node: &Node<'_, O>,
     pattern: &Sparsity,
     trajectory: &Discretization,
-    free_duration: bool,
+    time: &[bool],
 ) -> Option<Sparsity> {
-    let dense = all(node, free_duration);
+    let dense = all(node, time);
     if *pattern == dense {
         return None;
     }
@@ -75,7 +78,8 @@ fn denied_on_path<O: Ocp>(
     let mut first = vec![0.0; derivatives.jacobian_nonzeros()];
     let mut second = vec![0.0; dense.hessian.len()];
     let denied = places.any(|k| {
-        let at = [trajectory.state(k), trajectory.control(k), &times[k..=k]].concat();
+        let own = [trajectory.state(k), trajectory.control(k)].concat();
+        let at = [&own, &trajectory.parameters, &times[k..=k]].concat();
         derivatives.jacobian(node, &at, &mut first);
         let missed = first_missed(&dense, pattern, &first, rounding);
         missed || {
@@ -100,10 +104,10 @@ struct Check<'f, F: Function> {
 }
 
 impl<'f, F: Function> Check<'f, F> {
-    fn new(function: &'f F, free_duration: bool) -> Self {
+    fn new(function: &'f F, times: &[bool]) -> Self {
         Self {
             function,
-            dense: all(function, free_duration),
+            dense: all(function, times),
         }
     }
 
@@ -128,11 +132,9 @@ impl<'f, F: Function> Check<'f, F> {
     }
 }
 
-/// Every derivative of `f`, whose last input is a time.
-fn all<F: Function>(f: &F, free_duration: bool) -> Sparsity {
-    let mut used = vec![true; f.inputs()];
-    used[f.inputs() - 1] = free_duration;
-    Sparsity::dense(f.outputs(), &used)
+/// Every derivative of `f`, whose last inputs are times.
+fn all<F: Function>(f: &F, times: &[bool]) -> Sparsity {
+    Sparsity::dense(f.outputs(), &used(f, times))
 }
 
 /// Weights of the outputs that are `wanted`: so different that nothing cancels.

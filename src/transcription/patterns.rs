@@ -4,7 +4,7 @@ use super::functions::{Boundary, Node, WayPoint};
 use crate::autodiff::{Function, Sparsity};
 use crate::ocp::{Formulation, Interval, Ocp, Quantity};
 
-/// Which derivatives of (f, C, ℒ), of (E, Φ) and of each way-point's rows may be nonzero.
+/// Which derivatives of (f, C, ℒ, g), of (E, Φ) and of each way-point's rows may be nonzero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Patterns {
     pub(super) node: Sparsity,
@@ -24,26 +24,32 @@ impl Patterns {
         };
         let states = inside(&formulation.states);
         let controls = inside(&formulation.controls);
-        let time = [inner_value(&formulation.duration)];
-        let find = Find {
-            branches: ocp.has_branches(),
-            free_duration: !formulation.duration.is_fixed(),
-        };
+        let parameters = inside(&formulation.parameters);
+        let integrals = inside(&formulation.integrals);
+        let times = [&formulation.initial_time, &formulation.duration].map(inner_value);
+        let time = times.iter().sum();
+        let branches = ocp.has_branches();
         let points = 0..formulation.way_points.len();
         Self {
-            node: find.in_function(
+            node: find(
+                branches,
                 &Node::new(ocp, &formulation),
-                &[&states[..], &controls, &time].concat(),
+                &path_times(&formulation),
+                &[&states[..], &controls, &parameters, &[time]].concat(),
             ),
-            ends: find.in_function(
+            ends: find(
+                branches,
                 &Boundary::new(ocp, &formulation),
-                &[&states[..], &states, &time].concat(),
+                &end_times(&formulation),
+                &[&states[..], &states, &parameters, &integrals, &times].concat(),
             ),
             way_points: points
                 .map(|index| {
-                    find.in_function(
+                    find(
+                        branches,
                         &WayPoint::new(ocp, &formulation, index),
-                        &[&states[..], &time].concat(),
+                        &end_times(&formulation),
+                        &[&states[..], &parameters, &times].concat(),
                     )
                 })
                 .collect(),
@@ -61,22 +67,30 @@ impl Patterns {
     }
 }
 
-/// How the patterns of one problem are found.
-struct Find {
-    branches: bool,
-    free_duration: bool,
+/// Whether t, the last input of a point, is an unknown.
+pub(super) fn path_times(formulation: &Formulation) -> [bool; 1] {
+    [formulation.has_free_time()]
 }
 
-impl Find {
-    /// The pattern of `f`, whose last input is a time, evaluated at `at`.
-    fn in_function<F: Function>(&self, f: &F, at: &[f64]) -> Sparsity {
-        let mut used = vec![true; f.inputs()];
-        used[f.inputs() - 1] = self.free_duration;
-        if self.branches {
-            Sparsity::dense(f.outputs(), &used)
-        } else {
-            Sparsity::traced(f, &used, at)
-        }
+/// Whether t₀ and T, the last inputs of ends and way-points, are unknowns.
+pub(super) fn end_times(formulation: &Formulation) -> [bool; 2] {
+    [&formulation.initial_time, &formulation.duration].map(|time| !time.is_fixed())
+}
+
+/// Which inputs of `f` are unknowns, the last ones being times.
+pub(super) fn used<F: Function>(f: &F, times: &[bool]) -> Vec<bool> {
+    let mut used = vec![true; f.inputs()];
+    used[f.inputs() - times.len()..].copy_from_slice(times);
+    used
+}
+
+/// The pattern of `f`, evaluated at `at`.
+fn find<F: Function>(branches: bool, f: &F, times: &[bool], at: &[f64]) -> Sparsity {
+    let used = used(f, times);
+    if branches {
+        Sparsity::dense(f.outputs(), &used)
+    } else {
+        Sparsity::traced(f, &used, at)
     }
 }
 

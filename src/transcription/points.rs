@@ -30,12 +30,20 @@ struct Worker<'a, O: Ocp> {
     inputs: Vec<f64>,
 }
 
+/// The unknowns that all points share.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shared<'v> {
+    pub initial_time: f64,
+    pub duration: f64,
+    pub parameters: &'v [f64],
+}
+
 /// An iterate.
 #[derive(Clone, Copy)]
 struct Iterate<'v, 'a, O> {
     node: &'v Node<'a, O>,
     x: &'v [f64],
-    duration: f64,
+    shared: Shared<'v>,
 }
 
 impl<'a, O: Ocp> Points<'a, O> {
@@ -72,21 +80,27 @@ impl<'a, O: Ocp> Points<'a, O> {
     }
 
     /// Outputs of every point, by points.
-    pub fn values(&mut self, node: &Node<'a, O>, x: &[f64], duration: f64, out: &mut [f64]) {
+    pub fn values(&mut self, node: &Node<'a, O>, x: &[f64], shared: Shared<'_>, out: &mut [f64]) {
         let count = if self.work < VALUES * LEAST_WORK {
             1
         } else {
             self.workers.len()
         };
-        let iterate = Iterate { node, x, duration };
+        let iterate = Iterate { node, x, shared };
         self.each(count, iterate, out, |worker, _, out| {
             worker.derivatives.values(node, &worker.inputs, out);
         });
     }
 
     /// Jacobian nonzeros of every point, by points.
-    pub fn jacobians(&mut self, node: &Node<'a, O>, x: &[f64], duration: f64, out: &mut [f64]) {
-        let iterate = Iterate { node, x, duration };
+    pub fn jacobians(
+        &mut self,
+        node: &Node<'a, O>,
+        x: &[f64],
+        shared: Shared<'_>,
+        out: &mut [f64],
+    ) {
+        let iterate = Iterate { node, x, shared };
         self.each(self.workers.len(), iterate, out, |worker, _, out| {
             worker.derivatives.jacobian(node, &worker.inputs, out);
         });
@@ -97,11 +111,11 @@ impl<'a, O: Ocp> Points<'a, O> {
         &mut self,
         node: &Node<'a, O>,
         x: &[f64],
-        duration: f64,
+        shared: Shared<'_>,
         weights: &[f64],
         out: &mut [f64],
     ) {
-        let iterate = Iterate { node, x, duration };
+        let iterate = Iterate { node, x, shared };
         let width = node.outputs();
         self.each(self.workers.len(), iterate, out, |worker, k, out| {
             let weights = &weights[k * width..(k + 1) * width];
@@ -137,10 +151,12 @@ impl<'a, O: Ocp> Points<'a, O> {
 }
 
 impl<O: Ocp> Iterate<'_, '_, O> {
-    /// Inputs (x, u, t) of point `k`.
+    /// Inputs (x, u, p, t) of point `k`.
     fn load(&self, k: usize, fraction: f64, inputs: &mut [f64]) {
-        let width = self.node.time();
+        let width = self.node.own();
+        let time = self.node.time();
         inputs[..width].copy_from_slice(&self.x[k * width..(k + 1) * width]);
-        inputs[width] = fraction * self.duration;
+        inputs[width..time].copy_from_slice(self.shared.parameters);
+        inputs[time] = self.shared.initial_time + fraction * self.shared.duration;
     }
 }

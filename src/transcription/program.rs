@@ -2,8 +2,10 @@
 
 use super::evaluation::Evaluation;
 use super::hessian::{Hessian, Multipliers};
-use super::jacobian::{self, Jacobian};
+use super::jacobian::Jacobian;
 use super::names::Names;
+use super::objective;
+use super::quadrature::{integrals, quadrature};
 use super::{Discretization, Layout, Patterns};
 use crate::collocation::Mesh;
 use crate::nlp::{Nlp, Size, Undefined};
@@ -43,7 +45,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         let evaluation = Evaluation::new(ocp, &formulation, patterns, &mesh, layout.clone());
         Self {
             names: Names::new(formulation.clone(), &mesh),
-            quadrature: jacobian::quadrature(&mesh),
+            quadrature: quadrature(&mesh),
             jacobian: Jacobian::new(&layout, &mesh, &evaluation),
             hessian: Hessian::new(&layout, &mesh, &evaluation),
             formulation,
@@ -68,9 +70,33 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         &self.formulation
     }
 
-    /// The programme's variables for a trajectory on this mesh.
+    /// The programme's variables for a trajectory on this mesh. Integrals have the values that
+    /// follow from it.
+    ///
+    /// # Panics
+    /// Where the trajectory has not as many static parameters as the problem.
     pub fn pack(&self, trajectory: &Discretization) -> Vec<f64> {
-        jacobian::pack(&self.layout, trajectory)
+        let ocp = self.evaluation.node.ocp;
+        let integrals = integrals(ocp, &self.formulation, trajectory);
+        let layout = &self.layout;
+        let mut x = vec![0.0; layout.variables()];
+        for k in 0..=layout.points {
+            let start = layout.state(k, 0);
+            x[start..start + layout.states].copy_from_slice(trajectory.state(k));
+            if k < layout.points {
+                let start = layout.control(k, 0);
+                x[start..start + layout.controls].copy_from_slice(trajectory.control(k));
+            }
+        }
+        if layout.free_duration {
+            x[layout.duration()] = trajectory.duration;
+        }
+        if layout.free_initial_time {
+            x[layout.initial_time()] = trajectory.initial_time;
+        }
+        x[layout.parameter(0)..layout.integral(0)].copy_from_slice(&trajectory.parameters);
+        x[layout.integral(0)..].copy_from_slice(&integrals);
+        x
     }
 
     /// The trajectory of the programme's variables `x`.
@@ -86,7 +112,10 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         });
         Discretization {
             mesh: self.mesh.clone(),
+            initial_time: self.evaluation.initial_time(x),
             duration: self.evaluation.duration(x),
+            parameters: x[layout.parameter(0)..layout.integral(0)].to_vec(),
+            integrals: x[layout.integral(0)..].to_vec(),
             states: layout.states,
             controls: layout.controls,
             x: states.collect(),
@@ -142,6 +171,15 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
             lower[layout.duration()] = self.formulation.duration.lower;
             upper[layout.duration()] = self.formulation.duration.upper;
         }
+        if layout.free_initial_time {
+            lower[layout.initial_time()] = self.formulation.initial_time.lower;
+            upper[layout.initial_time()] = self.formulation.initial_time.upper;
+        }
+        let constants = [&self.formulation.parameters, &self.formulation.integrals];
+        for (v, quantity) in (layout.parameter(0)..).zip(constants.into_iter().flatten()) {
+            lower[v] = quantity.bounds.lower;
+            upper[v] = quantity.bounds.upper;
+        }
     }
 
     fn constraint_bounds(&self, lower: &mut [f64], upper: &mut [f64]) {
@@ -164,6 +202,10 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
             lower[layout.boundary(b)] = row.bounds.lower;
             upper[layout.boundary(b)] = row.bounds.upper;
         }
+        if layout.bounded_final_time {
+            lower[layout.final_time_row()] = self.formulation.final_time.lower;
+            upper[layout.final_time_row()] = self.formulation.final_time.upper;
+        }
     }
 
     fn jacobian_structure(&self, rows: &mut [usize], columns: &mut [usize]) {
@@ -183,7 +225,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     fn objective(&mut self, x: &[f64]) -> Result<f64, Undefined> {
         self.evaluation.need_values(x);
         let duration = self.evaluation.duration(x);
-        let value = jacobian::objective(duration, &self.quadrature, &self.evaluation);
+        let value = objective::objective(duration, &self.quadrature, &self.evaluation);
         if value.is_finite() {
             Ok(value)
         } else {
@@ -196,7 +238,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Undefined> {
         self.need_all(x)?;
         let duration = self.evaluation.duration(x);
-        jacobian::gradient(
+        objective::gradient(
             duration,
             &self.quadrature,
             &self.layout,
@@ -234,8 +276,19 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
             let first = layout.way_point(w, 0);
             values[first..first + point.values.len()].copy_from_slice(&point.values);
         }
-        values[layout.boundary(0)..]
+        values[layout.boundary(0)..layout.integral_row(0)]
             .copy_from_slice(&self.evaluation.end_values[..layout.boundary]);
+        for i in 0..layout.integrals {
+            let output = self.evaluation.node.cost() + 1 + i;
+            let mut sum = 0.0;
+            for (k, w) in self.quadrature.iter().enumerate() {
+                sum += w * self.evaluation.outputs(k)[output];
+            }
+            values[layout.integral_row(i)] = x[layout.integral(i)] - duration * sum;
+        }
+        if layout.bounded_final_time {
+            values[layout.final_time_row()] = self.evaluation.initial_time(x) + duration;
+        }
         if values.iter().all(|v| v.is_finite()) {
             Ok(())
         } else {

@@ -1,7 +1,7 @@
 //! Where a trajectory goes: the range of every quantity, and which bounds lie far outside it.
 
 use super::Discretization;
-use crate::ocp::{Ends, Formulation, InteriorPoint, Interval, Ocp, Point, Quantity};
+use crate::ocp::{Formulation, InteriorPoint, Interval, Ocp, Quantity};
 
 /// A bound this many times as large as anything on the way to it cannot act.
 const FAR: f64 = 1e4;
@@ -15,6 +15,9 @@ pub struct Reach {
     pub(super) boundary: Vec<Interval>,
     /// Of each way-point, the values of its rows.
     pub(super) way_points: Vec<Vec<Interval>>,
+    pub(super) parameters: Vec<Interval>,
+    pub(super) integrals: Vec<Interval>,
+    pub(super) initial_time: f64,
     pub(super) duration: f64,
 }
 
@@ -30,6 +33,9 @@ impl Reach {
             path: vec![NOWHERE; formulation.path.len()],
             boundary: vec![NOWHERE; formulation.boundary.len()],
             way_points: Vec::new(),
+            parameters: only(&trajectory.parameters),
+            integrals: only(&trajectory.integrals),
+            initial_time: trajectory.initial_time,
             duration: trajectory.duration,
         };
         let mut scratch = ocp.scratch::<f64>();
@@ -42,24 +48,25 @@ impl Reach {
             if k < points {
                 let u = trajectory.control(k);
                 widen(&mut reach.controls, u);
-                ocp.continuous(Point { x, u, t }, &mut scratch, &mut rates, &mut path);
+                let point = trajectory.point(x, u, t);
+                ocp.continuous(point, &mut scratch, &mut rates, &mut path);
                 widen(&mut reach.path, &path);
             }
         }
         let mut rows = vec![0.0; formulation.boundary.len()];
-        let ends = Ends {
-            initial: trajectory.state(0),
-            terminal: trajectory.state(points),
-            duration: trajectory.duration,
-        };
-        ocp.boundary(ends, &mut scratch, &mut rows);
+        ocp.boundary(trajectory.ends(), &mut scratch, &mut rows);
         widen(&mut reach.boundary, &rows);
         for (way_point, point) in formulation.way_points.iter().enumerate() {
             let mut ranges = vec![NOWHERE; point.rows.len()];
             if let Some(node) = trajectory.mesh.node_at(point.fraction) {
                 let mut rows = vec![0.0; point.rows.len()];
-                let (x, t) = (trajectory.state(node), times[node]);
-                ocp.way_point(InteriorPoint { way_point, x, t }, &mut scratch, &mut rows);
+                let passed = InteriorPoint {
+                    way_point,
+                    x: trajectory.state(node),
+                    parameters: &trajectory.parameters,
+                    t: times[node],
+                };
+                ocp.way_point(passed, &mut scratch, &mut rows);
                 widen(&mut ranges, &rows);
             }
             reach.way_points.push(ranges);
@@ -87,11 +94,15 @@ impl Reach {
         let others = near.controls.iter_mut().zip(&self.controls);
         let others = others.chain(near.path.iter_mut().zip(&self.path));
         let others = others.chain(near.boundary.iter_mut().zip(&self.boundary));
+        let others = others.chain(near.parameters.iter_mut().zip(&self.parameters));
+        let others = others.chain(near.integrals.iter_mut().zip(&self.integrals));
         for (quantity, range) in others.chain(rows) {
             let size = reachable(quantity, magnitude(range));
             drop_far(&mut quantity.bounds, size);
         }
         drop_far(&mut near.duration, self.duration);
+        let time = self.duration.max(self.initial_time.abs());
+        drop_far(&mut near.initial_time, time);
         near
     }
 
@@ -117,6 +128,20 @@ impl Reach {
                     .iter()
                     .zip(&near.boundary)
                     .zip(&self.boundary),
+            )
+            .chain(
+                formulation
+                    .parameters
+                    .iter()
+                    .zip(&near.parameters)
+                    .zip(&self.parameters),
+            )
+            .chain(
+                formulation
+                    .integrals
+                    .iter()
+                    .zip(&near.integrals)
+                    .zip(&self.integrals),
             );
         let instants = formulation.way_points.iter().zip(&near.way_points);
         let rows = instants
@@ -137,8 +162,11 @@ impl Reach {
                 ])
                 .any(|(all, near)| beyond(&all, &near, &self.states[i]))
         });
-        let duration = Interval::fixed(self.duration);
-        of_quantities || at_instants || beyond(&formulation.duration, &near.duration, &duration)
+        let [start, duration] = [self.initial_time, self.duration].map(Interval::fixed);
+        of_quantities
+            || at_instants
+            || beyond(&formulation.duration, &near.duration, &duration)
+            || beyond(&formulation.initial_time, &near.initial_time, &start)
     }
 }
 
@@ -159,6 +187,11 @@ impl Typed {
         };
         Self((0..formulation.states.len()).map(of_state).collect())
     }
+}
+
+/// The range of each value that there is but one of.
+fn only(values: &[f64]) -> Vec<Interval> {
+    values.iter().map(|&value| Interval::fixed(value)).collect()
 }
 
 fn widen(ranges: &mut [Interval], values: &[f64]) {

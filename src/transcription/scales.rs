@@ -21,6 +21,9 @@ pub struct Scales {
     path: Vec<Scale>,
     boundary: Vec<Scale>,
     way_points: Vec<Vec<Scale>>,
+    parameters: Vec<Scale>,
+    integrals: Vec<Scale>,
+    /// Of the duration, and of t₀ and t_f with it.
     duration: Scale,
 }
 
@@ -66,6 +69,8 @@ impl Scales {
             way_points: points
                 .map(|(point, ranges)| many(&point.rows, ranges))
                 .collect(),
+            parameters: many(&formulation.parameters, &reach.parameters),
+            integrals: many(&formulation.integrals, &reach.integrals),
             duration: Scale {
                 value: rounded(reach.duration),
                 basis: Basis::Typed,
@@ -91,6 +96,8 @@ impl Scales {
             way_points: points
                 .map(|(scales, ranges)| many(scales, ranges))
                 .collect(),
+            parameters: many(&self.parameters, &reach.parameters),
+            integrals: many(&self.integrals, &reach.integrals),
             duration: self.duration.after(reach.duration),
         };
         (next != *self).then_some(next)
@@ -101,6 +108,8 @@ impl Scales {
         let below = |a: &[Scale], b: &[Scale]| a.iter().zip(b).any(|(a, b)| a.value < b.value);
         below(&self.states, &other.states)
             || below(&self.controls, &other.controls)
+            || below(&self.parameters, &other.parameters)
+            || below(&self.integrals, &other.integrals)
             || below(&[self.duration], &[other.duration])
     }
 
@@ -125,6 +134,15 @@ impl Scales {
         }
         if layout.free_duration {
             units.variables[layout.duration()] = self.duration.value;
+        }
+        if layout.free_initial_time {
+            units.variables[layout.initial_time()] = self.duration.value;
+        }
+        set(&mut units.variables, layout.parameter(0), &self.parameters);
+        set(&mut units.variables, layout.integral(0), &self.integrals);
+        set(&mut units.rows, layout.integral_row(0), &self.integrals);
+        if layout.bounded_final_time {
+            units.rows[layout.final_time_row()] = self.duration.value;
         }
         for (w, scales) in self.way_points.iter().enumerate() {
             set(&mut units.rows, layout.way_point(w, 0), scales);

@@ -5,7 +5,7 @@ use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::dynamics::space::Space;
 use ffsm_ipopt::nlp::Nlp;
-use ffsm_ipopt::ocp::{Ends, Formulation, InteriorPoint, LimitGroup, Ocp, Point};
+use ffsm_ipopt::ocp::{Ends, Formulation, InteriorPoint, Interval, LimitGroup, Ocp, Point};
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::system::FreeFloating;
 use ffsm_ipopt::transcription::{Patterns, Transcription};
@@ -24,14 +24,18 @@ pub fn programme<O: Ocp>(ocp: &O, mesh: &Mesh, v: &[Reference]) -> (Reference, V
     let (n, m) = f.widths();
     let width = n + m;
     let node = |k: usize| &v[k * width..];
-    let duration = if f.duration.is_fixed() {
-        Reference::constant(f.duration.lower)
-    } else {
-        v[v.len() - 1]
+    // Behind the last states: the duration and t₀ where they are free, parameters, integrals.
+    let mut border = &v[mesh.points() * width + n..];
+    let mut time = |bounds: &Interval| match bounds.is_fixed() {
+        true => Reference::constant(bounds.lower),
+        false => *border.split_off_first().unwrap(),
     };
+    let [duration, start] = [time(&f.duration), time(&f.initial_time)];
+    let (parameters, integrals) = border.split_at(f.parameters.len());
     let mut scratch = ocp.scratch();
     let mut rows = Vec::new();
     let mut cost = Reference::zero();
+    let mut sums = vec![Reference::zero(); f.integrals.len()];
     let points = mesh.points();
     let mut k = 0;
     for s in 0..mesh.segments() {
@@ -44,22 +48,29 @@ pub fn programme<O: Ocp>(ocp: &O, mesh: &Mesh, v: &[Reference]) -> (Reference, V
                     let point = InteriorPoint {
                         way_point: w,
                         x: &node(k)[..n],
-                        t: duration * passed.fraction,
+                        parameters,
+                        t: start + duration * passed.fraction,
                     };
                     ocp.way_point(point, &mut scratch, &mut own);
                     rows.extend(own);
                 }
             }
-            let t = duration * mesh.fraction(s, rule.points()[i]);
+            let t = start + duration * mesh.fraction(s, rule.points()[i]);
             let mut rates = vec![Reference::zero(); n];
             let mut path = vec![Reference::zero(); f.path.len()];
             let point = Point {
                 x: &node(k)[..n],
                 u: &node(k)[n..width],
+                parameters,
                 t,
             };
             let running = ocp.continuous(point, &mut scratch, &mut rates, &mut path);
             cost += running * half * rule.weights()[i];
+            let mut integrands = vec![Reference::zero(); sums.len()];
+            ocp.integrands(point, &mut scratch, &mut integrands);
+            for (sum, g) in sums.iter_mut().zip(integrands) {
+                *sum += g * half * rule.weights()[i];
+            }
             for (r, &rate) in rates.iter().enumerate() {
                 let mut defect = Reference::zero();
                 for (j, &d) in rule.differentiation(i).iter().enumerate() {
@@ -75,10 +86,17 @@ pub fn programme<O: Ocp>(ocp: &O, mesh: &Mesh, v: &[Reference]) -> (Reference, V
     let ends = Ends {
         initial: &node(0)[..n],
         terminal: &node(points)[..n],
+        parameters,
+        integrals,
+        initial_time: start,
         duration,
     };
     cost += ocp.boundary(ends, &mut scratch, &mut boundary);
     rows.extend(boundary);
+    rows.extend(sums.iter().zip(integrals).map(|(&sum, &q)| q - sum));
+    if f.has_free_time() && !f.final_time.is_free() {
+        rows.push(start + duration);
+    }
     (cost, rows)
 }
 

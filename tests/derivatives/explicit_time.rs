@@ -30,6 +30,7 @@ impl Ocp for TimeVarying {
             initial: vec![free; 2],
             terminal: vec![free; 2],
             duration: Interval::new(0.5, 1.5),
+            ..Formulation::default()
         }
     }
 
@@ -46,7 +47,9 @@ impl Ocp for TimeVarying {
     }
 
     fn way_point<S: Scalar>(&self, point: InteriorPoint<'_, S>, _: &mut (), rows: &mut [S]) {
-        let InteriorPoint { way_point, x, t } = point;
+        let InteriorPoint {
+            way_point, x, t, ..
+        } = point;
         rows[0] = x[0] * x[1].square() * t;
         rows[1] = (x[1] * t).sin() + x[0].square() * way_point as f64;
     }

@@ -8,6 +8,7 @@ mod problems;
 #[path = "../trees/mod.rs"]
 mod trees;
 
+mod border;
 mod checks;
 mod explicit_time;
 mod functions;

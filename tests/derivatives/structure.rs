@@ -38,6 +38,15 @@ impl<O: Ocp> Ocp for Swept<'_, O> {
         self.0.continuous(point, scratch, rates, path)
     }
 
+    fn integrands<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        integrands: &mut [S],
+    ) {
+        self.0.integrands(point, scratch, integrands);
+    }
+
     fn boundary<S: Scalar>(
         &self,
         ends: Ends<'_, S>,

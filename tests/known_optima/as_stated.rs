@@ -146,7 +146,7 @@ impl<O: Ocp> Ocp for InUnits<O> {
         let inner = Ends {
             initial: &scratch.ends[0],
             terminal: &scratch.ends[1],
-            duration: ends.duration,
+            ..ends
         };
         self.inner.boundary(inner, &mut scratch.inner, rows)
     }

@@ -24,6 +24,7 @@ impl Ocp for Brachistochrone {
             initial: fixed(&[0.0; 3]),
             terminal: vec![Interval::fixed(2.0), Interval::fixed(2.0), free],
             duration: Interval::new(0.1, 10.0),
+            ..Formulation::default()
         }
     }
 

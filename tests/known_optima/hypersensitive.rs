@@ -23,6 +23,7 @@ impl Ocp for Hypersensitive {
             initial: fixed(&self.ends[..1]),
             terminal: fixed(&self.ends[1..]),
             duration: Interval::fixed(self.duration),
+            ..Formulation::default()
         }
     }
 

@@ -35,6 +35,7 @@ impl Ocp for Integrator {
             initial: fixed(&self.initial),
             terminal: fixed(&self.terminal),
             duration: self.duration,
+            ..Formulation::default()
         }
     }
 

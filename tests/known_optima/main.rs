@@ -3,7 +3,10 @@
 mod as_stated;
 mod brachistochrone;
 mod hypersensitive;
+mod integrals;
 mod integrators;
+mod parameters;
+mod times;
 mod way_points;
 
 use ffsm_ipopt::nlp::{self, Control};

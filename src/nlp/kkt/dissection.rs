@@ -27,6 +27,50 @@ const WINDOW: f64 = 0.25;
 /// Most unknowns of a separator, as a part of a domain.
 const MAX_SEPARATOR: f64 = 0.1;
 
+/// Fewest neighbours of a node in the border.
+const LEAST_COUPLED: usize = 16;
+
+/// Parts that the time axis is divided into, and in how many of them a node in the border has
+/// neighbours at least.
+const PARTS: usize = 8;
+const LEAST_PARTS: u32 = 6;
+
+/// Most unknowns in the border, as a part of all.
+const MAX_BORDER: f64 = 0.0125;
+
+/// Matrices with fewer unknowns have none: minimum degree does as well there.
+const MIN_BORDERED: usize = 500;
+
+/// The border: nodes with neighbours all along the time axis, as static parameters and integrals have;
+/// none where so many have them that they are no border, as those of one long segment.
+///
+/// Nodes for which `dense` is true are left out.
+pub(super) fn border(pattern: &Pattern, graph: &Graph, dense: &[bool]) -> Vec<usize> {
+    let nodes = graph.len();
+    if pattern.len() < MIN_BORDERED {
+        return Vec::new();
+    }
+    let mut part = vec![0_u32; nodes];
+    for (place, node) in time_order(pattern, graph, dense).into_iter().enumerate() {
+        part[node as usize] = 1 << (place * PARTS / nodes);
+    }
+    let spans = |&node: &usize| {
+        let beside = graph.neighbours(node);
+        let parts = || {
+            beside
+                .iter()
+                .fold(0, |all, &other| all | part[other as usize])
+        };
+        beside.len() >= LEAST_COUPLED && parts().count_ones() >= LEAST_PARTS
+    };
+    let found: Vec<usize> = (0..nodes).filter(|&n| !dense[n]).filter(spans).collect();
+    let weight: u32 = found.iter().map(|&node| graph.weight(node)).sum();
+    match f64::from(weight) <= MAX_BORDER * pattern.len() as f64 {
+        true => found,
+        false => Vec::new(),
+    }
+}
+
 /// The stage in which each node is eliminated, 0 in a domain and 1 in a separator, and the number of
 /// domains.
 ///

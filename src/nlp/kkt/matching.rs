@@ -2,25 +2,31 @@
 
 use super::Pattern;
 
+/// A row is long with so many entries, and so many times those of the mean row.
+const LEAST_LONG: usize = 16;
+const LONG: usize = 8;
+
 /// The unknown that each one is matched with; itself where it stays alone.
 ///
 /// The diagonal entry of a multiplier is zero or tiny, so that alone it makes no pivot. It is matched
 /// with the variable of its row that stands in the fewest rows: a slack stands in one row, a control
 /// in few, a state in many. Rows with the rarest variables come first.
+///
+/// The row of an integral has an entry for every point. Its multiplier is eliminated after them, with
+/// a diagonal of their making: a variable matched with it would only be held back. What stands in no
+/// other row is matched all the same.
 pub(super) fn pivot_matching(pattern: &Pattern) -> Vec<u32> {
     let n = pattern.len();
     let primal = first_multiplier(pattern);
     let mut partner: Vec<u32> = (0..n as u32).collect();
-    // The number of multipliers' rows that each variable stands in, and the variables of each row.
-    let mut rows_of = vec![0_u32; primal];
+    // The variables of each row.
     let mut start = vec![0_u32; n - primal + 1];
     let between = || {
         pattern
             .entries()
             .filter(|&(row, column)| row >= primal && column < primal)
     };
-    for (row, column) in between() {
-        rows_of[column] += 1;
+    for (row, _) in between() {
         start[row - primal + 1] += 1;
     }
     for row in 0..n - primal {
@@ -33,6 +39,16 @@ pub(super) fn pivot_matching(pattern: &Pattern) -> Vec<u32> {
         variables[*place as usize] = column as u32;
         *place += 1;
     }
+    let mean = variables.len() / (n - primal).max(1);
+    let is_long = |r: u32| {
+        let length = (start[r as usize + 1] - start[r as usize]) as usize;
+        length > LEAST_LONG.max(LONG * mean)
+    };
+    // The number of multipliers' rows that each variable stands in, long ones apart.
+    let mut rows_of = vec![0_u32; primal];
+    for (row, column) in between() {
+        rows_of[column] += u32::from(!is_long((row - primal) as u32));
+    }
     let mut order: Vec<u32> = (0..(n - primal) as u32).collect();
     let row = |r: u32| &variables[start[r as usize] as usize..start[r as usize + 1] as usize];
     let least = |r: u32| row(r).iter().map(|&v| rows_of[v as usize]).min();
@@ -42,7 +58,7 @@ pub(super) fn pivot_matching(pattern: &Pattern) -> Vec<u32> {
         let free = row(r)
             .iter()
             .copied()
-            .filter(|&v| partner[v as usize] == v)
+            .filter(|&v| partner[v as usize] == v && (rows_of[v as usize] == 0 || !is_long(r)))
             .min_by_key(|&v| rows_of[v as usize]);
         if let Some(variable) = free {
             partner[variable as usize] = multiplier;

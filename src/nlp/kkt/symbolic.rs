@@ -73,7 +73,10 @@ impl Symbolic {
     pub fn new(pattern: Pattern) -> Self {
         let partner = matching::pivot_matching(&pattern);
         let graph = Graph::new(&pattern, &partner);
-        let dense = ordering::dense(&graph);
+        let mut dense = ordering::dense(&graph);
+        for node in dissection::border(&pattern, &graph, &dense) {
+            dense[node] = true;
+        }
         let (stage, domains) = dissection::dissect(&pattern, &graph, &dense);
         let tree = ordering::minimum_degree(&graph, &stage, &dense);
         let merged = amalgamation::merge(&graph, &tree);

@@ -11,6 +11,10 @@ pub(super) struct ElasticDerivatives<'a, O> {
     amounts: usize,
     controls: usize,
     path: usize,
+    /// Static parameters and the time.
+    others: usize,
+    /// Running cost and integrands.
+    integrated: usize,
     weights: Vec<f64>,
     first: Vec<f64>,
     second: Vec<f64>,
@@ -20,7 +24,9 @@ impl<'a, O: Ocp> ElasticDerivatives<'a, O> {
     pub fn new(problem: &'a Elastic<'a, O>, inner: Box<dyn PointDerivatives + 'a>) -> Self {
         let (states, controls) = problem.base.widths();
         let path = problem.base.path.len();
-        let (inputs, outputs) = (states + controls + 1, states + path + 1);
+        let others = problem.base.parameters.len() + 1;
+        let integrated = problem.base.integrals.len() + 1;
+        let (inputs, outputs) = (states + controls + others, states + path + integrated);
         Self {
             problem,
             inner,
@@ -28,6 +34,8 @@ impl<'a, O: Ocp> ElasticDerivatives<'a, O> {
             amounts: problem.groups.len(),
             controls,
             path,
+            others,
+            integrated,
             weights: vec![0.0; outputs],
             first: vec![0.0; outputs * inputs],
             second: vec![0.0; inputs * inputs],
@@ -35,7 +43,7 @@ impl<'a, O: Ocp> ElasticDerivatives<'a, O> {
     }
 
     fn inputs(&self) -> usize {
-        self.states + self.controls + 1
+        self.states + self.controls + self.others
     }
 
     /// Where an input of the problem inside stands here.
@@ -56,11 +64,12 @@ impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
         let (from, width) = (self.inputs(), self.inputs() + self.amounts);
         let last = self.states + self.path;
         let elastic = 2 * self.problem.path.len();
-        for row in 0..=last {
+        for row in 0..last + self.integrated {
             let (to, factor) = match row {
                 _ if row < self.states => (row, 1.0),
                 _ if row < last => (row + self.amounts, 1.0),
-                _ => (row + self.amounts + elastic, self.problem.regularization),
+                _ if row == last => (row + self.amounts + elastic, self.problem.regularization),
+                _ => (row + self.amounts + elastic, 1.0),
             };
             for input in 0..from {
                 jacobian[to * width + self.outer(input)] = factor * self.first[row * from + input];
@@ -93,10 +102,11 @@ impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
         let (states, path) = (self.states, self.path);
         let (rates, rest) = weights.split_at(states);
         let (rows, rest) = rest[self.amounts..].split_at(path);
-        let (elastic, cost) = rest.split_at(rest.len() - 1);
+        let (elastic, cost) = rest.split_at(rest.len() - self.integrated);
         self.weights[..states].copy_from_slice(rates);
         self.weights[states..states + path].copy_from_slice(rows);
-        self.weights[states + path] = cost[0] * self.problem.regularization;
+        self.weights[states + path..].copy_from_slice(cost);
+        self.weights[states + path] *= self.problem.regularization;
         for (pair, bound) in elastic.chunks_exact(2).zip(&self.problem.path) {
             if let OnPath::Row(i) = bound.quantity {
                 self.weights[states + i] += pair[0] + pair[1];

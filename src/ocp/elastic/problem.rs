@@ -133,6 +133,17 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         cost
     }
 
+    fn integrands<S: Scalar>(
+        &self,
+        point: Point<'_, S>,
+        scratch: &mut Self::Scratch<S>,
+        integrands: &mut [S],
+    ) {
+        let x = &point.x[..self.base.states.len()];
+        let inner = Point { x, ..point };
+        self.inner.integrands(inner, &mut scratch.inner, integrands);
+    }
+
     fn boundary<S: Scalar>(
         &self,
         ends: Ends<'_, S>,
@@ -145,7 +156,7 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         let inner_ends = Ends {
             initial: &ends.initial[..n],
             terminal: x,
-            duration: ends.duration,
+            ..ends
         };
         let mut cost = self
             .inner

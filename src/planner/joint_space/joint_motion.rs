@@ -271,7 +271,10 @@ fn sample<Sp: Space>(
     u.truncate(points * n);
     Ok(Discretization {
         mesh,
+        initial_time: 0.0,
         duration,
+        parameters: Vec::new(),
+        integrals: Vec::new(),
         states,
         controls: n,
         x,

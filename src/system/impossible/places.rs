@@ -41,6 +41,7 @@ fn values<Sp: Space>(system: &FreeFloating<Sp>, joints: &[f64], rates: &[f64]) -
         x: &x,
         u: &u,
         t: 0.0,
+        parameters: &[],
     };
     let mut scratch = system.scratch::<f64>();
     system.continuous(point, &mut scratch, &mut derivatives, &mut rows);

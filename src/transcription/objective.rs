@@ -1,0 +1,59 @@
+//! The objective (25) and its gradient.
+
+use super::Layout;
+use super::evaluation::Evaluation;
+use super::jacobian::{end_column, first_slot};
+use crate::ocp::Ocp;
+
+/// Objective (25): terminal cost and quadrature of the running cost.
+pub(super) fn objective<O: Ocp>(
+    duration: f64,
+    quadrature: &[f64],
+    evaluation: &Evaluation<'_, O>,
+) -> f64 {
+    let cost = evaluation.node.cost();
+    let integral: f64 = quadrature
+        .iter()
+        .enumerate()
+        .map(|(k, w)| w * evaluation.outputs(k)[cost])
+        .sum();
+    evaluation.end_values[evaluation.ends.rows] + duration * integral
+}
+
+/// Gradient of the objective, dense.
+pub(super) fn gradient<O: Ocp>(
+    duration: f64,
+    quadrature: &[f64],
+    layout: &Layout,
+    evaluation: &Evaluation<'_, O>,
+    gradient: &mut [f64],
+) {
+    gradient.fill(0.0);
+    let sparsity = evaluation.node_derivatives().sparsity();
+    let cost = evaluation.node.cost();
+    let inputs = &sparsity.jacobian[cost];
+    let offset = first_slot(sparsity, cost);
+    for (k, w) in quadrature.iter().enumerate() {
+        let first = &evaluation.nonzeros(k)[offset..];
+        for (&input, d) in inputs.iter().zip(first) {
+            if input != evaluation.node.time() {
+                gradient[layout.input(k, input)] += duration * w * d;
+                continue;
+            }
+            if layout.free_duration {
+                gradient[layout.duration()] += duration * w * evaluation.fraction(k) * d;
+            }
+            if layout.free_initial_time {
+                gradient[layout.initial_time()] += duration * w * d;
+            }
+        }
+        if layout.free_duration {
+            gradient[layout.duration()] += w * evaluation.outputs(k)[cost];
+        }
+    }
+    let inputs = &evaluation.end_derivatives.sparsity().jacobian[evaluation.ends.rows];
+    let offset = evaluation.end_derivatives.jacobian_nonzeros() - inputs.len();
+    for (&input, d) in inputs.iter().zip(&evaluation.end_first[offset..]) {
+        gradient[end_column(layout, input)] += d;
+    }
+}

@@ -1,0 +1,50 @@
+//! Quadrature by the LGR weights of a mesh.
+
+use super::Discretization;
+use crate::collocation::Mesh;
+use crate::ocp::{Formulation, Ocp};
+
+/// width/2 of the segment of each point, fraction of the duration.
+pub(super) fn half_widths(mesh: &Mesh) -> Vec<f64> {
+    (0..mesh.segments())
+        .flat_map(|s| std::iter::repeat_n(0.5 * mesh.width(s), mesh.rule(s).len()))
+        .collect()
+}
+
+/// Quadrature weight of each point, fraction of the duration; sum 1.
+pub(super) fn quadrature(mesh: &Mesh) -> Vec<f64> {
+    (0..mesh.segments())
+        .flat_map(|s| {
+            mesh.rule(s)
+                .weights()
+                .iter()
+                .map(move |w| 0.5 * mesh.width(s) * w)
+        })
+        .collect()
+}
+
+/// Value of each integral of `ocp` on `trajectory`, by the quadrature of its mesh.
+pub fn integrals<O: Ocp>(
+    ocp: &O,
+    formulation: &Formulation,
+    trajectory: &Discretization,
+) -> Vec<f64> {
+    let mut sums = vec![0.0; formulation.integrals.len()];
+    if sums.is_empty() {
+        return sums;
+    }
+    let mut scratch = ocp.scratch::<f64>();
+    let mut rates = vec![0.0; formulation.states.len()];
+    let mut path = vec![0.0; formulation.path.len()];
+    let mut integrands = vec![0.0; sums.len()];
+    let times = trajectory.times();
+    for (k, weight) in quadrature(&trajectory.mesh).into_iter().enumerate() {
+        let point = trajectory.point(trajectory.state(k), trajectory.control(k), times[k]);
+        ocp.continuous(point, &mut scratch, &mut rates, &mut path);
+        ocp.integrands(point, &mut scratch, &mut integrands);
+        for (sum, value) in sums.iter_mut().zip(&integrands) {
+            *sum += trajectory.duration * weight * value;
+        }
+    }
+    sums
+}
