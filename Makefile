@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test fuzz test-ipopt-3.14 test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test fuzz test-ipopt-3.14 random-tasks test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -16,6 +16,9 @@ fuzz: ## read a million damaged files of each kind: no panic, none takes a secon
 
 test-ipopt-3.14: ## run the tests against a newer Ipopt, 3.14
 	scripts/ipopt-3.14.sh
+
+random-tasks: ## 300 random tasks by our linear solver and by MUMPS, their verdicts compared
+	cargo test --release --locked --test linear_solver three_hundred -- --ignored --nocapture
 
 test-threads: ## four threads solving for a minute, against one thread
 	cargo test --release --locked --test ipopt for_a_minute -- --ignored

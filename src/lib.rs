@@ -62,8 +62,10 @@ pub mod ocp {
     mod elastic;
     mod formulation;
     mod interval;
+    mod invariants;
     mod point;
     mod problem;
+    mod released;
     mod validation;
 
     pub use crate::refine::{SolveError, SolveSettings as Settings, solve, solve_from};
@@ -71,8 +73,10 @@ pub mod ocp {
     pub use elastic::{Elastic, LimitGroup, Limited};
     pub use formulation::{Formulation, Quantity, WayPoint};
     pub use interval::Interval;
+    pub(crate) use invariants::{Dependent, dependent};
     pub use point::{Ends, InteriorPoint, Point};
     pub use problem::Ocp;
+    pub(crate) use released::Released;
     pub use validation::FormulationError;
 }
 

@@ -23,7 +23,7 @@ pub use linear_solver::LinearSolver;
 pub use problem::{Nlp, Size, Undefined};
 pub use scaled::{Scaled, Units};
 pub use settings::{OptionValue, Settings};
-pub use solution::{Control, Evaluations, Progress, Solution, Statistics, Status};
+pub use solution::{Control, Evaluations, HandOver, Progress, Solution, Statistics, Status};
 
 #[cfg(test)]
 mod tests {
@@ -36,6 +36,7 @@ mod tests {
         fn is_send_and_sync<T: Send + Sync + 'static>() {}
         is_send_and_sync::<Control>();
         is_send_and_sync::<Evaluations>();
+        is_send_and_sync::<HandOver>();
         is_send_and_sync::<Iterate>();
         is_send_and_sync::<LinearSolver>();
         is_send_and_sync::<OptionValue>();

@@ -88,10 +88,24 @@ impl Evaluations {
     }
 }
 
+/// Why MUMPS takes a solve over from the multifrontal linear solver.
+#[non_exhaustive]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum HandOver {
+    /// It failed. The solve is begun again.
+    Failed,
+    /// Its systems were singular, iteration after iteration, as of rows that depend on each other.
+    /// The solve goes on from where it was, or is begun again where that was no way out.
+    Singular,
+    /// Delayed pivots made its factors many times longer than foreseen. The solve goes on from where
+    /// it was.
+    Growth,
+}
+
 /// Counts and times of one solve, or of several together.
 ///
-/// A solve that was begun again with MUMPS counts as one, with the iterations, evaluations and times
-/// of both attempts.
+/// A solve that MUMPS has taken over counts as one, with the iterations, evaluations and times of
+/// both attempts.
 #[non_exhaustive]
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Statistics {
@@ -111,8 +125,12 @@ pub struct Statistics {
     pub linear_solver: Duration,
     /// Number of solves.
     pub solves: u32,
-    /// How many of them were begun again with MUMPS, since the multifrontal linear solver failed.
+    /// How many of them MUMPS has taken over from the multifrontal linear solver.
     pub fallbacks: u32,
+    /// How many of those since systems were singular on and on: [`HandOver::Singular`].
+    pub singular_fallbacks: u32,
+    /// How many of those since the factors had grown: [`HandOver::Growth`].
+    pub growth_fallbacks: u32,
     /// Wall time of the whole solve, callbacks included.
     pub total: Duration,
 }
@@ -126,19 +144,50 @@ impl Statistics {
         self.linear_solver += other.linear_solver;
         self.solves += other.solves;
         self.fallbacks += other.fallbacks;
+        self.singular_fallbacks += other.singular_fallbacks;
+        self.growth_fallbacks += other.growth_fallbacks;
         self.total += other.total;
         self.barrier = other.barrier;
         self.primal_infeasibility = other.primal_infeasibility;
         self.dual_infeasibility = other.dual_infeasibility;
     }
 
+    /// Counts this solve as one that MUMPS has taken over.
+    pub(super) fn taken_over(&mut self, why: HandOver) {
+        self.solves = 1;
+        self.fallbacks = 1;
+        self.singular_fallbacks = u32::from(why == HandOver::Singular);
+        self.growth_fallbacks = u32::from(why == HandOver::Growth);
+    }
+
     /// A sentence for the user where MUMPS had to stand in for the multifrontal linear solver.
     pub fn fallback_warning(&self) -> Option<String> {
+        let failed = self.fallbacks - self.singular_fallbacks - self.growth_fallbacks;
+        let reasons = [
+            (
+                failed,
+                "did them again from their start where it had failed",
+            ),
+            (
+                self.singular_fallbacks,
+                "went on where the systems were singular iteration after iteration, as of conditions \
+                 that depend on each other",
+            ),
+            (
+                self.growth_fallbacks,
+                "went on where delayed pivots had made the factors many times longer than foreseen",
+            ),
+        ];
+        let said = reasons.iter().filter(|(count, _)| *count > 0);
+        let said: Vec<String> = said
+            .map(|(count, why)| format!("{why} ({count})"))
+            .collect();
         (self.fallbacks > 0).then(|| {
             format!(
-                "the multifrontal linear solver failed in {} of {} solves; MUMPS did them again \
-                 from their start",
-                self.fallbacks, self.solves
+                "MUMPS stood in for the multifrontal linear solver in {} of {} solves: it {}",
+                self.fallbacks,
+                self.solves,
+                said.join(", ")
             )
         })
     }

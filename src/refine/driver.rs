@@ -173,6 +173,7 @@ impl<O: Ocp> Refinement<'_, O> {
                     _ => late.then_some(CutShort::OutOfTime),
                 },
                 violations: worst_of_each(&assessed.outside, self.settings.bound_tolerance),
+                released: Vec::new(),
                 statistics,
             };
             match next.filter(|_| !halt && !late) {

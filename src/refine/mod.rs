@@ -45,7 +45,7 @@ pub use error::{Errors, midpoint_errors};
 pub use failure::SolveError;
 pub use law::{Assessment, Refined, RefinementLaw};
 pub use method::Method;
-pub use outcome::{CutShort, Outcome};
+pub use outcome::{CutShort, Outcome, ReleasedCondition};
 pub use quadrature::quadrature_error;
 pub use record::{Decision, Record};
 pub use settings::{ErrorMeasure, SettingError, Settings};

@@ -3,6 +3,7 @@
 use super::{Record, Verdict, Violation};
 use crate::nlp::{Iterate, Statistics, Status};
 use crate::transcription::Discretization;
+use std::fmt;
 
 /// What ends a refinement from outside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +13,41 @@ pub enum CutShort {
     Interrupted,
     /// The time limit.
     OutOfTime,
+}
+
+/// A condition on a state that follows from the others by an invariant of the dynamics, as that on the
+/// last component of a quaternion, and was left out: it would have made every system singular.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ReleasedCondition {
+    /// Name of the state.
+    pub state: String,
+    /// The way-point where it was fixed; `None` for the end.
+    pub way_point: Option<usize>,
+    /// The value that was asked for.
+    pub asked: f64,
+    /// The value that the trajectory has there.
+    pub found: f64,
+}
+
+impl fmt::Display for ReleasedCondition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            state,
+            asked,
+            found,
+            ..
+        } = self;
+        let place = match self.way_point {
+            Some(w) => format!("at way-point {}", w + 1),
+            None => "at the end".into(),
+        };
+        write!(
+            f,
+            "the condition on {state} {place}, {asked}, follows from the others and was left out; \
+             the trajectory has {found}"
+        )
+    }
 }
 
 /// Where the loop ended.
@@ -44,6 +80,8 @@ pub struct Outcome {
     /// The worst violation of every bound that is exceeded between the nodes by more than
     /// [`Settings::bound_tolerance`](super::Settings::bound_tolerance).
     pub violations: Vec<Violation>,
+    /// Conditions on states that were left out since they follow from the others.
+    pub released: Vec<ReleasedCondition>,
     /// Counts and times of all solves together, those of `discarded` included; barrier parameter
     /// and infeasibilities are those of the solve that counts.
     pub statistics: Statistics,

@@ -1,9 +1,9 @@
 //! An optimal control problem solved by one call.
 
 use super::start::guessed;
-use super::{Outcome, Refinement, Settings, SolveError, Start, start_check};
+use super::{Outcome, Refinement, ReleasedCondition, Settings, SolveError, Start, start_check};
 use crate::nlp::{self, Control};
-use crate::ocp::Ocp;
+use crate::ocp::{Dependent, Formulation, Ocp, Released, dependent};
 use crate::transcription::{Discretization, Patterns};
 
 /// How an optimal control problem is solved: [`ocp::Settings`](crate::ocp::Settings).
@@ -33,7 +33,8 @@ impl From<Settings> for SolveSettings {
 
 /// Solves `problem` from straight lines between the ends of its states.
 ///
-/// The outcome says whether it converged.
+/// The outcome says whether it converged. Conditions at the end or at a way-point that follow from the
+/// others, since the dynamics keep an invariant, are left out: see [`Outcome::released`].
 ///
 /// # Errors
 /// [`SolveError`], where there is nothing to solve.
@@ -78,7 +79,46 @@ fn begin<O: Ocp>(
     let start = start(&refinement)?;
     start_check::written(problem, &formulation, &start.trajectory)?;
     start_check::finite(problem, &formulation, &start.trajectory)?;
-    refinement.run(&start, &mut |_| Control::Continue)
+    let dependent = dependent(problem, &formulation);
+    if dependent.is_empty() {
+        return refinement.run(&start, &mut |_| Control::Continue);
+    }
+    let without = Refinement {
+        ocp: &Released::new(problem, &dependent),
+        patterns: &patterns,
+        settings: &settings.mesh,
+        solver: &settings.solver,
+    };
+    let mut outcome = without.run(&start, &mut |_| Control::Continue)?;
+    outcome.released = released(&dependent, &formulation, &outcome.trajectory);
+    let mut pairs = dependent.iter().zip(&outcome.released);
+    if outcome.converged && !pairs.all(|(of, released)| of.holds(released.found)) {
+        // What looked like an invariant is none everywhere.
+        return refinement.run(&start, &mut |_| Control::Continue);
+    }
+    Ok(outcome)
+}
+
+/// The conditions left out, with what the trajectory has in their place.
+fn released(
+    dependent: &[Dependent],
+    formulation: &Formulation,
+    trajectory: &Discretization,
+) -> Vec<ReleasedCondition> {
+    let at = |way_point: Option<usize>| match way_point {
+        Some(w) => trajectory.mesh.node_at(formulation.way_points[w].fraction),
+        None => Some(trajectory.mesh.points()),
+    };
+    dependent
+        .iter()
+        .map(|condition| ReleasedCondition {
+            state: formulation.states[condition.state].name.clone(),
+            way_point: condition.way_point,
+            asked: condition.asked,
+            found: at(condition.way_point)
+                .map_or(f64::NAN, |node| trajectory.state(node)[condition.state]),
+        })
+        .collect()
 }
 
 impl<O: Ocp> Refinement<'_, O> {

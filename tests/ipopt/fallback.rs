@@ -56,3 +56,43 @@ fn mumps_has_nothing_to_fall_back_to() {
     assert_eq!((statistics.solves, statistics.fallbacks), (1, 0));
     assert_eq!(statistics.fallback_warning(), None);
 }
+
+/// Rows that are the same from the second iteration on make a system singular in every one.
+#[test]
+fn singular_systems_on_and_on_are_handed_over_where_they_are() {
+    let mut nlp = valley_with_a_row_twice();
+    let mut objectives = Vec::new();
+    let start = Iterate::primal(VALLEY_START.to_vec());
+    let solution = solve(&mut nlp, &Settings::default(), &start, &mut |progress| {
+        objectives.push((progress.iteration, progress.objective));
+        Control::Continue
+    })
+    .unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert_near(&solution.iterate.x, &VALLEY_OPTIMUM, 1e-5);
+    let statistics = solution.statistics;
+    assert_eq!((statistics.solves, statistics.fallbacks), (1, 1));
+    assert_eq!(
+        (statistics.singular_fallbacks, statistics.growth_fallbacks),
+        (1, 0)
+    );
+    let warning = statistics.fallback_warning().unwrap();
+    assert!(warning.contains("singular"), "{warning}");
+    // MUMPS begins where the other one was.
+    let again = objectives.iter().rposition(|(i, _)| *i == 0).unwrap();
+    assert!(again > 0, "{objectives:?}");
+    let (last, before) = objectives[again - 1];
+    assert!(objectives[again].1 <= before * (1.0 + 1e-6));
+    let after = objectives.last().unwrap().0;
+    assert_eq!(statistics.iterations, last + after);
+
+    // All of it within one limit on iterations.
+    let settings = with(|settings| settings.max_iterations = last + 1);
+    let limited = run(&mut valley_with_a_row_twice(), &settings, &VALLEY_START).unwrap();
+    assert_eq!(limited.status, Status::MaxIterations);
+    assert_eq!(limited.statistics.iterations, last + 1);
+    let settings = with(|settings| settings.max_iterations = last);
+    let limited = run(&mut valley_with_a_row_twice(), &settings, &VALLEY_START).unwrap();
+    assert_eq!(limited.status, Status::MaxIterations);
+    assert_eq!(limited.statistics.fallbacks, 0);
+}

@@ -332,3 +332,43 @@ impl Nlp for Chain {
         Ok(())
     }
 }
+
+/// A long valley, min 1000 (x₁ − x₀²)² + (1 − x₀)², with two rows that are the same once y = x₃ has
+/// left its start.
+pub fn valley_with_a_row_twice() -> Dense {
+    Dense::new(
+        |x| {
+            let across = x[1] - x[0] * x[0];
+            1e3 * across * across + (1.0 - x[0]).powi(2) + (x[3] - 0.2).powi(2)
+        },
+        |x, d| {
+            let across = x[1] - x[0] * x[0];
+            d[0] = -4e3 * x[0] * across - 2.0 * (1.0 - x[0]);
+            d[1] = 2e3 * across;
+            d[2] = 0.0;
+            d[3] = 2.0 * (x[3] - 0.2);
+        },
+        |x, sigma, _, h| {
+            h.fill(0.0);
+            h[0] = sigma * (1e3 * (12.0 * x[0] * x[0] - 4.0 * x[1]) + 2.0);
+            h[1] = sigma * -4e3 * x[0];
+            h[2] = sigma * 2e3;
+            h[9] = sigma * 2.0;
+        },
+        free(4),
+    )
+    .subject_to(
+        |x, g| {
+            let more = if x[3] > 0.6 { x[3] - 0.5 } else { 0.0 };
+            g.copy_from_slice(&[x[2] - 1.0, x[2] - 1.0 + more]);
+        },
+        |x, d| {
+            let more = f64::from(x[3] > 0.6);
+            d.copy_from_slice(&[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, more]);
+        },
+        [vec![0.0; 2], vec![0.0; 2]],
+    )
+}
+
+pub const VALLEY_START: [f64; 4] = [-1.9, 2.0, 0.0, 1.0];
+pub const VALLEY_OPTIMUM: [f64; 4] = [1.0, 1.0, 1.0, 0.2];

@@ -6,8 +6,10 @@
 )]
 
 use super::interrupt;
+use super::ma97_bridge::with_trouble;
 use super::structure::{Structure, Structures};
-use crate::nlp::{Control, Deadline, Evaluations, Nlp, Progress, Undefined};
+use super::trouble::Trouble;
+use crate::nlp::{Control, Deadline, Evaluations, HandOver, Nlp, Progress, Undefined};
 use ipopt_sys::{self as ip, Bool, Index, Number, UserDataPtr};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -20,6 +22,8 @@ pub(super) struct Context<'a, N: Nlp + ?Sized> {
     monitor: &'a mut dyn FnMut(&Progress) -> Control,
     structure: &'a Structures,
     deadline: Deadline,
+    /// Whether the multifrontal solver serves, and MUMPS could.
+    bridged: bool,
     /// Ipopt need not call the first point new.
     begun: bool,
     record: Record,
@@ -32,6 +36,8 @@ pub(super) struct Record {
     pub(super) panic: Option<Box<dyn Any + Send>>,
     /// Whether the deadline ended the solve.
     pub(super) late: bool,
+    /// Why MUMPS is to go on, where that ended the solve.
+    pub(super) hand_over: Option<HandOver>,
     /// The last iteration.
     pub(super) last: Option<Progress>,
     /// Calls of each function.
@@ -49,12 +55,14 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
         monitor: &'a mut dyn FnMut(&Progress) -> Control,
         structure: &'a Structures,
         deadline: Deadline,
+        bridged: bool,
     ) -> Self {
         Self {
             nlp,
             monitor,
             structure,
             deadline,
+            bridged,
             begun: false,
             record: Record::default(),
         }
@@ -99,7 +107,13 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
         let outcome = catch_unwind(AssertUnwindSafe(|| monitor(&progress) == Control::Continue));
         let go_on = ip::is_true(self.answer(outcome)) && !interrupt::requested();
         self.record.late = go_on && self.deadline.has_passed();
-        ip::from_bool(go_on && !self.record.late)
+        let go_on = go_on && !self.record.late;
+        if self.bridged {
+            let reason = with_trouble(Trouble::iterated);
+            // An iterate of the restoration phase is none of the programme's own.
+            self.record.hand_over = reason.filter(|_| go_on && !progress.restoration);
+        }
+        ip::from_bool(go_on && self.record.hand_over.is_none())
     }
 
     fn answer(&mut self, outcome: Result<bool, Box<dyn Any + Send>>) -> Bool {

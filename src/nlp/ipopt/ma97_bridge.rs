@@ -11,7 +11,8 @@
     reason = "functions that C calls with pointers, by the interface of HSL_MA97"
 )]
 
-use crate::nlp::kkt::{Factors, Inertia, Pattern, Symbolic};
+use super::trouble::Trouble;
+use crate::nlp::kkt::{Factors, Growth, Inertia, Pattern, Symbolic};
 use ipopt_sys::ma97::{self, Control, Info, Reached, Routines};
 use std::cell::RefCell;
 use std::ffi::{c_double, c_int, c_void};
@@ -53,6 +54,8 @@ pub(super) struct Count {
     pub time: Duration,
     /// Whether a call has failed.
     pub failed: bool,
+    /// Systems that were singular, and factors that grew.
+    pub trouble: Trouble,
     /// The routines of the real HSL_MA97, where all calls go to them.
     hsl: Option<Routines>,
 }
@@ -118,10 +121,16 @@ impl Drop for Session {
     }
 }
 
+/// The trouble that this thread's solve has met so far, to be noted at the end of each iteration.
+pub(super) fn with_trouble<T>(body: impl FnOnce(&mut Trouble) -> T) -> T {
+    COUNT.with_borrow_mut(|count| body(&mut count.trouble))
+}
+
 /// An analysis, and the factors of the last matrix with its pattern.
 struct Analysis {
     symbolic: Arc<Symbolic>,
     factors: Factors,
+    growth: Growth,
 }
 
 impl Analysis {
@@ -138,12 +147,15 @@ impl Analysis {
             Self {
                 factors: Factors::new(&symbolic),
                 symbolic: Arc::new(symbolic),
+                growth: Growth::default(),
             }
         })
     }
 
     /// Keeps this analysis for the next solve with its pattern, unless it is large.
-    fn keep(self) {
+    fn keep(mut self) {
+        // What was found in this solve is not to change the next one.
+        self.growth = Growth::default();
         if self.symbolic.factor_size() > LARGEST_KEPT {
             return;
         }
@@ -297,10 +309,15 @@ unsafe fn analysis<'a>(akeep: *mut *mut c_void) -> Result<&'a mut Analysis, Fail
 
 /// Factorises the matrix with these values.
 fn factorise(analysis: &mut Analysis, values: &[f64], control: &Control) -> Result<Info, Failed> {
-    let Analysis { symbolic, factors } = analysis;
-    let inertia = factors
-        .factor(symbolic, values, control.u)
+    let Analysis {
+        symbolic,
+        factors,
+        growth,
+    } = analysis;
+    let inertia = growth
+        .factor(factors, symbolic, values, control.u)
         .map_err(|_| Failed)?;
+    with_trouble(|trouble| trouble.factorised(inertia.zero > 0, Growth::of(symbolic, &inertia)));
     let mut info = empty();
     info.num_neg = inertia.negative as c_int;
     info.num_two = inertia.two_by_two as c_int;
@@ -440,7 +457,9 @@ unsafe extern "C" fn solve(
     }
     let body = || {
         // SAFETY: Ipopt passes the handle of its analysis.
-        let Analysis { symbolic, factors } = unsafe { analysis(akeep)? };
+        let Analysis {
+            symbolic, factors, ..
+        } = unsafe { analysis(akeep)? };
         for right in 0..nrhs as usize {
             // SAFETY: Ipopt passes `nrhs` right-hand sides, `ldx` apart, as long as the matrix.
             let x = unsafe { from_raw_parts_mut(x.add(right * ldx as usize), symbolic.len()) };

@@ -19,6 +19,7 @@ mod serial;
 mod status;
 mod structure;
 mod timing;
+mod trouble;
 
 pub use choice::{linear_solver, why_not_multifrontal};
 pub use error::IpoptError;
@@ -28,7 +29,8 @@ pub use reach::{Reach, reach_of_option, reach_of_solver};
 pub use serial::serialised;
 
 use super::{
-    Control, Deadline, Iterate, Nlp, Progress, Settings, Size, Solution, Statistics, Status,
+    Control, Deadline, HandOver, Iterate, Nlp, Progress, Settings, Size, Solution, Statistics,
+    Status,
 };
 use callbacks::Context;
 use choice::Choice;
@@ -37,6 +39,7 @@ use problem::Problem;
 use std::panic::resume_unwind;
 use std::time::Instant;
 use timing::TimingFile;
+use trouble::Trouble;
 
 /// Version of the Ipopt this was built against, such as `3.11.9`.
 pub fn version() -> &'static str {
@@ -52,8 +55,9 @@ pub fn version() -> &'static str {
 /// Ipopt relaxes each bound b by 1e-8 max(1, |b|) (its option `bound_relax_factor`), and the result
 /// may lie that far outside.
 ///
-/// Where the multifrontal linear solver fails, the solve is begun again from the start with MUMPS.
-/// [`Statistics::fallbacks`] is then 1; counts and times are those of both attempts together.
+/// Where the multifrontal linear solver fails, or meets singular systems or delayed pivots on and on,
+/// MUMPS takes the solve over, within its limits on iterations and time ([`HandOver`] says from
+/// where). [`Statistics::fallbacks`] is then 1; counts and times are those of both attempts together.
 ///
 /// The time of [`Statistics::linear_solver`] is measured where the solver is the multifrontal one;
 /// otherwise it is a sum of Ipopt's figures, which have a resolution of 1 ms. [`Statistics::total`] does not
@@ -78,34 +82,53 @@ pub fn solve<N: Nlp + ?Sized>(
     let choice = Choice::of(settings)?;
     let mut attempt = Attempt {
         nlp,
-        settings,
-        start,
         size,
         bounds,
         structure,
         deadline: Deadline::after(settings.time_limit),
     };
-    let (first, failed) = attempt.run(&choice, monitor)?;
-    let stopped = matches!(first.status, Status::Interrupted | Status::TimeLimit);
-    if !failed || first.status.is_solved() || stopped {
+    let (mut first, hand_over) = attempt.run(&choice, settings, start, monitor)?;
+    let Some(hand_over) = hand_over else {
+        return Ok(first);
+    };
+    let left = settings
+        .max_iterations
+        .saturating_sub(first.statistics.iterations);
+    if left == 0 {
+        first.status = Status::MaxIterations;
         return Ok(first);
     }
-    let (second, _) = attempt.run(&Choice::fallback(), monitor)?;
+    let mut settings = settings.clone();
+    settings.max_iterations = left;
+    let start = match hand_over.from_here {
+        true => {
+            settings.warm_start = Some(first.statistics.barrier);
+            &first.iterate
+        }
+        false => start,
+    };
+    let (second, _) = attempt.run(&Choice::fallback(), &settings, start, monitor)?;
     let mut statistics = first.statistics;
     statistics.add(&second.statistics);
     // Two attempts at one solve.
-    (statistics.solves, statistics.fallbacks) = (1, 1);
+    statistics.taken_over(hand_over.why);
     Ok(Solution {
         statistics,
         ..second
     })
 }
 
+/// How a solve is handed over to MUMPS.
+#[derive(Debug, Clone, Copy)]
+struct Handing {
+    why: HandOver,
+    /// Whether MUMPS goes on from the last iterate; else it begins again.
+    from_here: bool,
+}
+
 /// What the attempts at one solve share.
 struct Attempt<'a, N: Nlp + ?Sized> {
     nlp: &'a mut N,
-    settings: &'a Settings,
-    start: &'a Iterate,
     size: Size,
     bounds: input::Bounds,
     structure: structure::Structures,
@@ -113,35 +136,43 @@ struct Attempt<'a, N: Nlp + ?Sized> {
 }
 
 impl<N: Nlp + ?Sized> Attempt<'_, N> {
-    /// One attempt, and whether the multifrontal solver failed in it.
+    /// One attempt, and how MUMPS is to take it over.
     fn run(
         &mut self,
         choice: &Choice,
+        settings: &Settings,
+        start: &Iterate,
         monitor: &mut dyn FnMut(&Progress) -> Control,
-    ) -> Result<(Solution, bool), IpoptError> {
+    ) -> Result<(Solution, Option<Handing>), IpoptError> {
         let permit = serial::permit(&choice.solver)?;
         let begin = Instant::now();
         let session = Session::begin(choice.hsl);
         let mut problem = Problem::create(self.size, &mut self.bounds)?;
-        options::apply(&mut problem, self.settings, choice)?;
+        options::apply(&mut problem, settings, choice)?;
         let bridged = choice.bridge.is_some();
-        let timing = if self.settings.timing && !bridged {
+        let timing = if settings.timing && !bridged {
             TimingFile::attach(&mut problem)
         } else {
             None
         };
 
-        let warm = self.settings.warm_start.is_some();
-        let mut iterate = input::initial(self.start, self.size, warm);
+        let warm = settings.warm_start.is_some();
+        let mut iterate = input::initial(start, self.size, warm);
         let mut constraints = vec![f64::NAN; self.size.constraints];
         let mut objective = f64::NAN;
-        let mut context = Context::new(&mut *self.nlp, monitor, &self.structure, self.deadline);
+        let mut context = Context::new(
+            &mut *self.nlp,
+            monitor,
+            &self.structure,
+            self.deadline,
+            bridged,
+        );
         let code = problem.solve(&mut iterate, &mut constraints, &mut objective, &mut context);
         let record = context.finish();
         // Ipopt closes the timing file and frees the linear solver only with the problem.
         drop(problem);
         let counted = session.end();
-        let linear_time = if bridged && self.settings.timing {
+        let linear_time = if bridged && settings.timing {
             counted.time
         } else {
             timing.and_then(TimingFile::read).unwrap_or_default()
@@ -158,6 +189,16 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
         };
         let last = record.last;
         let failed = counted.failed || (bridged && code == ipopt_sys::Error_In_Step_Computation);
+        let handing = match record.hand_over {
+            Some(why) => Some(Handing {
+                why,
+                from_here: true,
+            }),
+            None => why_again(status, failed, &counted.trouble, last).map(|why| Handing {
+                why,
+                from_here: false,
+            }),
+        };
         let solution = Solution {
             status,
             objective,
@@ -174,9 +215,30 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
                 // Rounding to 1 ms may make the parts exceed the whole.
                 linear_solver: linear_time.min(total.saturating_sub(record.derivatives)),
                 fallbacks: 0,
+                singular_fallbacks: 0,
+                growth_fallbacks: 0,
                 total,
             },
         };
-        Ok((solution, failed))
+        Ok((solution, handing))
     }
+}
+
+/// Why a solve that has ended is to be begun again with MUMPS, if it is.
+fn why_again(
+    status: Status,
+    failed: bool,
+    trouble: &Trouble,
+    last: Option<Progress>,
+) -> Option<HandOver> {
+    let stopped = matches!(status, Status::Interrupted | Status::TimeLimit);
+    if failed && !status.is_solved() && !stopped {
+        return Some(HandOver::Failed);
+    }
+    let stuck = matches!(
+        status,
+        Status::RestorationFailed | Status::SearchDirectionTooSmall
+    );
+    let iterations = last.map_or(0, |last| last.iteration);
+    (stuck && trouble.is_often_singular(iterations)).then_some(HandOver::Singular)
 }

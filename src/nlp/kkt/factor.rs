@@ -1,6 +1,7 @@
 //! Numerical factorisation, subtree by subtree.
 
 use super::partition::MAX_SUBTREES;
+use super::scaling::Scaling;
 use super::subtree::{Inertia, Matrix, Subtree};
 use super::symbolic::Symbolic;
 use super::update::largest_finite;
@@ -19,6 +20,9 @@ pub struct Factors {
     pub(super) subtrees: Vec<Subtree>,
     /// Right-hand side of one front.
     pub(super) vector: Vec<f64>,
+    /// The scaling of the matrix, where it is scaled.
+    pub(super) scaling: Scaling,
+    pub(super) is_scaled: bool,
 }
 
 impl Factors {
@@ -30,7 +34,35 @@ impl Factors {
                 .map(|size| Subtree::new(size, symbolic.len()))
                 .collect(),
             vector: Vec::new(),
+            scaling: Scaling::default(),
+            is_scaled: false,
         }
+    }
+
+    /// The same as [`Self::factor`], of the matrix scaled to columns of one size: pivots are then
+    /// compared with what belongs to them, and fewer are delayed.
+    ///
+    /// Inertia and solutions are those of the matrix as it is.
+    ///
+    /// # Errors
+    /// As [`Self::factor`].
+    ///
+    /// # Panics
+    /// As [`Self::factor`].
+    pub fn factor_scaled(
+        &mut self,
+        symbolic: &Symbolic,
+        values: &[f64],
+        threshold: f64,
+    ) -> Result<Inertia, NotFinite> {
+        assert_eq!(values.len(), symbolic.pattern.nonzeros());
+        largest_finite(values).ok_or(NotFinite)?;
+        let mut scaling = std::mem::take(&mut self.scaling);
+        scaling.equilibrate(&symbolic.pattern, values);
+        let found = self.factor(symbolic, &scaling.values, threshold);
+        self.is_scaled = true;
+        self.scaling = scaling;
+        found
     }
 
     /// Factorises the matrix with these values of the analysed pattern's entries.
@@ -53,6 +85,7 @@ impl Factors {
     ) -> Result<Inertia, NotFinite> {
         assert_eq!(values.len(), symbolic.pattern.nonzeros());
         let largest = largest_finite(values).ok_or(NotFinite)?;
+        self.is_scaled = false;
         let matrix = Matrix {
             values,
             threshold,
@@ -81,6 +114,7 @@ impl Factors {
             zero: sum.zero + of.zero,
             delayed: sum.delayed + of.delayed,
             two_by_two: sum.two_by_two + of.two_by_two,
+            entries: sum.entries + of.entries,
         }))
     }
 }

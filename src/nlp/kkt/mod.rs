@@ -18,7 +18,9 @@
 //! | `factor` | all of the factorisation |
 //! | `subtree` | the fronts of one subtree, assembled and eliminated |
 //! | `panel` | threshold pivoting in one front |
+//! | `scaling` | columns brought to one size |
 //! | `zero_pivots` | which columns are rounding error |
+//! | `growth` | a scaling where delayed pivots make the factors grow |
 //! | `update`, `simd` | dense kernels on vectors |
 //! | `solve` | forward and backward substitution |
 //!
@@ -28,12 +30,14 @@ mod amalgamation;
 mod dissection;
 mod factor;
 mod graph;
+mod growth;
 mod lists;
 mod matching;
 mod ordering;
 mod panel;
 mod partition;
 mod pattern;
+mod scaling;
 mod simd;
 mod solve;
 mod subtree;
@@ -42,6 +46,7 @@ mod update;
 mod zero_pivots;
 
 pub use factor::{Factors, NotFinite};
+pub(crate) use growth::Growth;
 pub use pattern::{Pattern, PatternError};
 pub use subtree::Inertia;
 pub use symbolic::Symbolic;

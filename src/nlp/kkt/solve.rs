@@ -15,16 +15,24 @@ impl Factors {
     /// Where `x` is shorter than the order of the matrix, or nothing was factorised yet.
     pub fn solve(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
         assert!(x.len() >= symbolic.len());
+        if self.is_scaled {
+            self.scaling.apply(x);
+        }
         dispatch(Solve {
             factors: self,
             symbolic,
-            x,
+            x: &mut *x,
         });
+        if self.is_scaled {
+            self.scaling.apply(x);
+        }
     }
 
     #[inline(always)]
     fn solve_with<V: Vector>(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
-        let Self { subtrees, vector } = self;
+        let Self {
+            subtrees, vector, ..
+        } = self;
         for (subtree, size) in subtrees.iter().zip(&symbolic.subtrees) {
             for (front, place) in symbolic.fronts[size.fronts.clone()]
                 .iter()

@@ -23,6 +23,8 @@ pub struct Inertia {
     pub delayed: usize,
     /// Pivots of order two.
     pub two_by_two: usize,
+    /// Length of the factors: [`Symbolic::factor_size`], and what delayed pivots add.
+    pub entries: usize,
 }
 
 /// What all subtrees are given of a matrix.
@@ -155,6 +157,7 @@ impl Subtree {
             inertia.two_by_two += counts.two_by_two;
             inertia.delayed += self.places[local].columns - counts.eliminated;
         }
+        inertia.entries = self.panels.len();
         self.inertia = inertia;
     }
 
