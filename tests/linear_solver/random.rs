@@ -52,11 +52,7 @@ fn task(seed: u64) -> Problem {
     if rng.u8(..3) == 0 {
         let bound = 10_f64.powf(2.0 * uniform(rng) - 1.0);
         let bound = if rng.u8(..4) == 0 { 0.0 } else { bound };
-        // The rotation angle is bounded from above.
-        let bounds = match problem.has_rotation_angle() {
-            true => Interval::new(0.0, bound),
-            false => Interval::symmetric(bound),
-        };
+        let bounds = Interval::symmetric(bound);
         if rng.bool() {
             problem.limits.final_base_attitude = vec![bounds; angles];
         } else {
