@@ -131,7 +131,7 @@ fn the_least_time_is_near_that_which_is_planned_and_never_above() {
         let mut free = one_joint(Interval::new(0.5, 20.0));
         limit(&mut free);
         let fastest = plan(&free.build().unwrap()).unwrap();
-        assert_eq!(fastest.status, Status::Solved);
+        assert_eq!(fastest.status, Status::Solved, "{:?}", fastest.iterations);
         let duration = fastest.discretization.duration;
         let within = |duration: f64| {
             let mut fixed = one_joint(Interval::fixed(duration));

@@ -404,8 +404,11 @@ fn a_motion_is_the_same_however_the_base_attitude_is_described() {
             };
             assert!((x - y).abs() < room, "{}: {x} {y}", method.name());
         }
-        // One rotation angle is at least the largest of three.
-        assert!(b.metrics.final_base_attitude >= a.metrics.final_base_attitude - 1e-9);
+        if method != Method::AccelerationQp {
+            // The rotation angle, whatever describes the attitude.
+            let [a, b] = [&a, &b].map(|plan| plan.metrics.final_base_attitude);
+            assert!((a - b).abs() < 1e-9, "{}: {a} {b}", method.name());
+        }
         let terms = cost_terms(&by_quaternion, &b.discretization);
         let square = b.metrics.final_base_attitude.powi(2);
         assert!(

@@ -138,11 +138,16 @@ impl<O: Ocp> MeshSolver<'_, O> {
         statistics: &mut Statistics,
         monitor: &mut dyn FnMut(&Progress) -> Control,
     ) -> Result<Solved, ipopt::IpoptError> {
+        let most = settings.max_iterations;
+        if settings.warm_start.is_some() {
+            // The other half is for the start without multipliers.
+            settings.max_iterations = most.div_ceil(2);
+        }
         let mut solution = in_units(program, units, &settings, &iterate, monitor)?;
         statistics.add(&solution.statistics);
         let mut nlp_iterations = solution.statistics.iterations;
         let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
-        let left = settings.max_iterations.saturating_sub(nlp_iterations);
+        let left = most.saturating_sub(nlp_iterations);
         let gave_up = !solution.status.is_solved() && !stopped && left > 0;
         if gave_up && settings.warm_start.take().is_some() {
             // Multipliers may mislead; the same trajectory without them has every chance of

@@ -46,7 +46,8 @@ enum Basis {
 
 impl Scales {
     /// Those of `formulation`, which has no bounds that are far from `reach`: what a quantity says
-    /// itself, else the size of its bounds and ends, and of its values where these are larger.
+    /// itself, else the size of what its ends fix it to, else of its bounds, and of its values where
+    /// these are larger.
     ///
     /// A size between 1/64 and 64 gives the scale 1, any other the power of two nearest to it, so
     /// that nothing is rounded.
@@ -179,7 +180,11 @@ fn set(units: &mut [f64], first: usize, scales: &[Scale]) {
 
 /// The scale of a quantity fixed to `end` somewhere and `seen` elsewhere.
 fn of(quantity: &Quantity, end: f64, seen: f64) -> Scale {
-    let typed = magnitude(&quantity.bounds).max(end);
+    let typed = match end {
+        // Bounds of what has a value somewhere are often far from it.
+        0.0 => magnitude(&quantity.bounds),
+        end => end,
+    };
     let (value, basis) = match quantity.scale {
         Some(given) => (given, Basis::Given),
         None if typed > 0.0 => (rounded(typed.max(seen)), Basis::Typed),
@@ -220,6 +225,8 @@ mod tests {
         let given = Quantity::new("x", Interval::FREE).scaled(3.0);
         assert_eq!(of(&given, 1e6, 1e7).value, 3.0);
         assert_eq!(of(&bounded, 0.0, 1.0).value, 131_072.0);
+        assert_eq!(of(&bounded, 100.0, 2e4).value, 16_384.0);
+        assert_eq!(of(&bounded, 100.0, 1.0).value, 128.0);
         assert_eq!(of(&free, 2e-6, 0.0).value, 2f64.powi(-19));
         // A small guess may be rounding, a small solution of the same order is not.
         let unknown = of(&free, 0.0, 1e-5);

@@ -363,7 +363,7 @@ fn counts_in_a_solution_are_checked_before_they_are_used() {
         damage("9000000000000000"),
         "d.json: mesh: a segment of 9000000000000000 collocation points; expected at most 1000\n"
     );
-    assert!(damage("900").contains("trajectory.t: "));
+    assert!(damage("900").contains("d.json: points: "));
     folder.write("n.json", &edited_objective(&text));
     let run = folder.run(&["report", "n.json"]);
     assert_eq!(run.code, 2, "{run:?}");

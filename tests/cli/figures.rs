@@ -60,7 +60,7 @@ fn the_base_angle_is_one_figure() {
 
 #[test]
 fn an_infeasible_plan_has_one_cost() {
-    let tight = PROBLEM.replace("joint_velocity = 0.9", "joint_velocity = 0.03");
+    let tight = PROBLEM.replace("joint_velocity = 0.9", "joint_velocity = 0.06");
     let folder = Folder::new(&tight);
     let run = folder.run(&["plan", "case.toml", "--method", "matpm", "--out", "out"]);
     assert_eq!(run.code, 3, "{run:?}");
