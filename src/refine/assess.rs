@@ -2,8 +2,8 @@
 
 use super::conditioning::Conditioning;
 use super::mesh_solve::Solved;
-use super::violation::OVERSHOOT;
-use super::{Bounded, Errors, Settings, Verdict, Violation, midpoint_errors, violations};
+use super::violation::{OVERSHOOT, violations};
+use super::{Bounded, Errors, Settings, Verdict, Violation, midpoint_errors};
 use crate::largest::largest;
 use crate::ocp::Ocp;
 use crate::transcription::Patterns;
@@ -51,7 +51,7 @@ impl<'a, O: Ocp> Assessor<'a, O> {
         let errors = midpoint_errors(self.ocp, &solved.trajectory);
         let errors = conditioning.measured(errors, self.settings);
         let duration = solved.trajectory.duration;
-        let outside = violations(self.ocp, &solved.trajectory);
+        let outside = violations(self.ocp, &solved.trajectory, |what| self.jumps(what));
         let removable: Vec<Vec<Violation>> = outside
             .iter()
             .map(|segment| {
@@ -59,7 +59,7 @@ impl<'a, O: Ocp> Assessor<'a, O> {
                 segment.iter().filter(removable).copied().collect()
             })
             .collect();
-        let left_to_remove = |violation: &Violation| match self.jumps(violation.what) {
+        let left_to_remove = |violation: &Violation| match violation.jumps {
             true => violation.lasts / duration,
             false => violation.relative,
         };
@@ -97,7 +97,7 @@ impl<'a, O: Ocp> Assessor<'a, O> {
     }
 
     fn is_far(&self, violation: &Violation) -> bool {
-        let most = match self.jumps(violation.what) {
+        let most = match violation.jumps {
             true => OVERSHOOT,
             false => FAR,
         };
@@ -108,7 +108,7 @@ impl<'a, O: Ocp> Assessor<'a, O> {
     /// segment's width.
     fn is_removable(&self, violation: &Violation, duration: f64) -> bool {
         let lasts = violation.lasts > SHORT * duration;
-        !self.jumps(violation.what) || lasts && self.is_far(violation)
+        !violation.jumps || lasts && self.is_far(violation)
     }
 
     /// Whether a bounded quantity is a control or depends on one.

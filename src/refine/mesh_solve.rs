@@ -52,8 +52,7 @@ pub(super) struct Previous {
 }
 
 impl<O: Ocp> MeshSolver<'_, O> {
-    /// Solves on the mesh of `trajectory`, again where the solution is not as was supposed of it. The
-    /// limit on iterations is one for all attempts together.
+    /// Solves on the mesh of `trajectory`, again where the solution is not as was supposed of it.
     pub fn settled(
         &self,
         conditioning: &mut Conditioning<'_, O>,
@@ -70,14 +69,14 @@ impl<O: Ocp> MeshSolver<'_, O> {
                 Transcription::within(self.ocp, formulation, conditioning.patterns(), mesh);
             let (mut settings, iterate) = self.warm_start(&program, trajectory, previous);
             settings.time_limit = self.deadline.remaining();
-            settings.max_iterations = self.settings.max_iterations.saturating_sub(nlp_iterations);
             let units = conditioning.units(program.layout());
             let mut solved =
                 self.solve(&mut program, &units, settings, iterate, statistics, monitor)?;
             nlp_iterations += solved.nlp_iterations;
             solved.nlp_iterations = nlp_iterations;
             let again = conditioning.settle(&solved.trajectory, solved.status);
-            let spent = nlp_iterations >= self.settings.max_iterations;
+            // Another attempt would end at the same limit.
+            let spent = solved.status == Status::MaxIterations;
             if !again || attempt == ATTEMPTS || spent {
                 return Ok(solved);
             }
@@ -138,23 +137,16 @@ impl<O: Ocp> MeshSolver<'_, O> {
         statistics: &mut Statistics,
         monitor: &mut dyn FnMut(&Progress) -> Control,
     ) -> Result<Solved, ipopt::IpoptError> {
-        let most = settings.max_iterations;
-        if settings.warm_start.is_some() {
-            // The other half is for the start without multipliers.
-            settings.max_iterations = most.div_ceil(2);
-        }
         let mut solution = in_units(program, units, &settings, &iterate, monitor)?;
         statistics.add(&solution.statistics);
         let mut nlp_iterations = solution.statistics.iterations;
         let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
-        let left = most.saturating_sub(nlp_iterations);
-        let gave_up = !solution.status.is_solved() && !stopped && left > 0;
+        let gave_up = !solution.status.is_solved() && !stopped;
         if gave_up && settings.warm_start.take().is_some() {
             // Multipliers may mislead; the same trajectory without them has every chance of
             // a cold start.
             let spent = solution.statistics.total;
             settings.time_limit = settings.time_limit.map(|limit| limit.saturating_sub(spent));
-            settings.max_iterations = left;
             let primal = Iterate::primal(iterate.x);
             solution = in_units(program, units, &settings, &primal, monitor)?;
             statistics.add(&solution.statistics);

@@ -52,4 +52,4 @@ pub use settings::{ErrorMeasure, SettingError, Settings};
 pub use solve::{SolveSettings, solve, solve_from};
 pub use start::Start;
 pub use verdict::Verdict;
-pub use violation::{Bounded, Violation, violations};
+pub use violation::{Bounded, Violation};

@@ -37,6 +37,8 @@ pub struct Violation {
     pub relative: f64,
     /// For how long in this segment it is outside by more than a tenth of that size, s.
     pub lasts: f64,
+    /// Whether it is a control, or depends on one, so that it may jump.
+    pub jumps: bool,
 }
 
 /// Part of a quantity's size above which the time outside is counted.
@@ -50,7 +52,13 @@ const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
 ///
 /// The nodes themselves are left out, the programme holds the bounds there; t_f, which is no
 /// collocation point, is looked at as well.
-pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Violation>> {
+///
+/// `jumps` says which of them depend on a control.
+pub(super) fn violations<O: Ocp>(
+    ocp: &O,
+    trajectory: &Discretization,
+    jumps: impl Fn(Bounded) -> bool,
+) -> Vec<Vec<Violation>> {
     let formulation = ocp.formulation();
     let (n, m) = formulation.widths();
     let quantities = bounded(&formulation);
@@ -97,6 +105,7 @@ pub fn violations<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Vec<Vec<Viola
                         excess,
                         relative,
                         lasts: f64::from(relative > OVERSHOOT) * stands_for * half,
+                        jumps: jumps(what),
                     };
                     *worst = Some(worst.map_or(here, |worst| worst.and(here)));
                 }

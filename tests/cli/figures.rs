@@ -62,10 +62,17 @@ fn the_base_angle_is_one_figure() {
 fn an_infeasible_plan_has_one_cost() {
     let tight = PROBLEM.replace("joint_velocity = 0.9", "joint_velocity = 0.06");
     let folder = Folder::new(&tight);
-    let run = folder.run(&["plan", "case.toml", "--method", "matpm", "--out", "out"]);
+    let run = folder.run(&[
+        "plan",
+        "case.toml",
+        "--method",
+        "straight-line",
+        "--out",
+        "out",
+    ]);
     assert_eq!(run.code, 3, "{run:?}");
     // By the joint's name.
-    let named = "(rate of joint elbow) does not hold along the motion of matpm";
+    let named = "(rate of joint elbow) does not hold along the motion of straight-line";
     assert!(run.stdout.contains(named), "{}", run.stdout);
     let cost = format!("{:.9}", solution(&folder)["objective"].as_f64().unwrap());
     let of = "of the motion below, which does not keep all limits";

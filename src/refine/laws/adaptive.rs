@@ -13,7 +13,7 @@
 //!   together to have no fewer points than the segment had: n parts of a segment of N points get
 //!   max(`points`, ⌈N/n⌉) each. A cut must not take away the accuracy that is there.
 //! - A segment that is accurate but exceeds a bound between its nodes is cut in two at the place of
-//!   the largest violation, which becomes a node.
+//!   the largest violation, which becomes a node; in four where what exceeds its bound may jump.
 //!
 //! Derived in docs/algorithms.md#adaptive-law.
 
@@ -38,6 +38,10 @@ fn error_before(assessment: &Assessment<'_>, s: usize) -> Option<f64> {
 /// Where in a segment a cut for the sake of a bound may be, |τ|: not so near its end that one of
 /// the parts is of no use.
 const OUTERMOST: f64 = 0.9;
+
+/// Where a segment is cut in which a control jumps: the jump stays in one of the parts, wherever it
+/// is, and its overshoot lasts a quarter as long.
+const QUARTERS: [f64; 3] = [-0.5, 0.0, 0.5];
 
 /// Mesh iterations without a limit of the user's.
 const MOST: usize = 40;
@@ -156,7 +160,10 @@ impl Law<'_> {
             .filter(|v| v.relative > self.0.bound_tolerance)
             .max_by(|a, b| a.relative.total_cmp(&b.relative))
             .map_or(Change::Keep, |worst| {
-                Change::Divide(vec![worst.tau.clamp(-OUTERMOST, OUTERMOST)])
+                Change::Divide(match worst.jumps {
+                    true => QUARTERS.to_vec(),
+                    false => vec![worst.tau.clamp(-OUTERMOST, OUTERMOST)],
+                })
             })
     }
 
@@ -217,6 +224,7 @@ mod tests {
             excess: relative,
             relative,
             lasts: 0.0,
+            jumps: false,
         });
         let settings = settings();
         Law(&settings).refine(&Assessment {
