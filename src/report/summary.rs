@@ -109,8 +109,15 @@ fn verification(lines: &mut Lines, robot: &Model, found: &Verification) {
 
 /// The status in one line, with the diagnosis where there is one.
 pub fn verdict(problem: &Problem, plan: &Plan) -> String {
+    let last = plan.iterations.last().map(|last| last.verdict);
+    let remark = match (plan.status, last) {
+        (Status::Solved, Some(Verdict::Overshoots)) => {
+            "; controls overshoot a limit for an instant"
+        }
+        _ => "",
+    };
     format!(
-        "{}: {} ({})",
+        "{}: {} ({}){remark}",
         problem.name,
         status(plan),
         plan.method.name()
@@ -119,12 +126,7 @@ pub fn verdict(problem: &Problem, plan: &Plan) -> String {
 
 fn status(plan: &Plan) -> String {
     match (plan.status, &plan.diagnosis) {
-        (Status::Solved, _) => match plan.iterations.last().map(|last| last.verdict) {
-            Some(Verdict::Overshoots) => {
-                "solved; controls overshoot a limit for an instant, see the warnings".into()
-            }
-            _ => "solved".into(),
-        },
+        (Status::Solved, _) => "solved".into(),
         (Status::Infeasible, Some(diagnosis)) => format!("infeasible: {}", diagnosis.summary),
         (Status::Infeasible, None) => "infeasible".into(),
         (Status::NotConverged, _) => {

@@ -32,7 +32,10 @@ pub(super) fn warnings<Sp: Space>(
             LimitId::Torque | LimitId::Control => {
                 let lasts = match violation.lasts {
                     0.0 => String::new(),
-                    lasts => format!(", by more than a tenth for {lasts:.1e} s in all"),
+                    lasts => {
+                        let lasts = digits(1e3 * lasts, 0, 2);
+                        format!(", by more than a tenth for {lasts} ms in all")
+                    }
                 };
                 format!(
                     "{lasts}; what switches overshoots there on any mesh, for a shorter time on a \
@@ -43,10 +46,10 @@ pub(super) fn warnings<Sp: Space>(
         };
         let (factor, unit) = row.unit.readable();
         format!(
-            "{} ({}) is exceeded by {:.2e}{unit} between the points of the mesh, at {time} s{helps}",
+            "{} ({}) is exceeded by {}{unit} between the points of the mesh, at {time} s{helps}",
             row.id.limit,
             row.quantity.name,
-            excess * factor
+            digits(excess * factor, 2, 3)
         )
     };
     violations.iter().map(sentence).collect()

@@ -194,8 +194,10 @@ impl Grid {
                     old.zip(new).zip(turned)
                 {
                     let slack = slack * per_cell;
-                    *low = low.min(old_low + turn - slack);
-                    *high = high.max(old_high + turn + slack);
+                    // Comparisons become vector instructions, `min` and `max` of a NaN do not.
+                    let (least, most) = (old_low + turn - slack, old_high + turn + slack);
+                    *low = if least < *low { least } else { *low };
+                    *high = if most > *high { most } else { *high };
                 }
             }
         }
