@@ -25,7 +25,10 @@ const GROWTH: f64 = 1.2;
 const COARSE: f64 = 1e-3;
 /// Error above which a mesh says nothing of a motion.
 const WILD: f64 = 1.0;
-/// Factor by which the cost then is larger at least on the second.
+/// Meshes after the first that tell of a divergence then, if the error rises from each to the next, and
+/// factor by which the cost is larger at least on the last: that of the first alone may be far too
+/// low.
+const GROWING_WILDLY: usize = 2;
 const WILD_GROWTH: f64 = 2.0;
 
 /// A step of the loop, for a monitor.
@@ -204,21 +207,25 @@ impl<O: Ocp> Refinement<'_, O> {
     }
 
     /// Whether no mesh has a smaller error than the first, far above the tolerance, and the cost has
-    /// grown: over several meshes, or over two where the error is larger than any motion's.
+    /// grown: over several meshes, or over fewer where the error is larger than any motion's and
+    /// rises.
     fn diverges(&self, records: &[Record]) -> bool {
         let (first, later) = (&records[0], &records[1..]);
-        let (least, growth) = if first.max_error > WILD {
-            (1, WILD_GROWTH)
-        } else {
-            (GROWING, GROWTH)
-        };
         let rough = |record: &Record| record.max_error >= first.max_error;
         let solved = |record: &Record| record.nlp_status.is_solved();
-        later.len() >= least
-            && first.max_error > COARSE.max(self.settings.tolerance)
-            && records.iter().all(solved)
-            && later.iter().all(rough)
-            && later[later.len() - 1].objective > growth * first.objective.abs()
+        let grows = |from: &Record, to: &Record, by: f64| to.objective > by * from.objective.abs();
+        if !records.iter().all(solved)
+            || !later.iter().all(rough)
+            || first.max_error <= COARSE.max(self.settings.tolerance)
+        {
+            return false;
+        }
+        if first.max_error > WILD && later.len() >= GROWING_WILDLY {
+            let mut pairs = records.windows(2);
+            let rises = pairs.all(|pair| pair[1].max_error > pair[0].max_error);
+            return rises && grows(first, &later[later.len() - 1], WILD_GROWTH);
+        }
+        later.len() >= GROWING && grows(first, &later[later.len() - 1], GROWTH)
     }
 
     fn record(&self, solved: &Solved, assessed: &Assessed, began: Instant) -> Record {
