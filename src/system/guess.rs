@@ -1,13 +1,15 @@
 //! Starting trajectories: joints through way-points, the base following by momentum.
 
 use super::free_floating::FreeFloating;
+use super::quintic::quintic;
 use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::problem::Problem;
+use crate::problem::{Problem, Task};
 use crate::refine::Start;
 use crate::transcription::Discretization;
+use std::f64::consts::TAU;
 
 /// Steps of the base's integration along the whole motion.
 const STEPS: usize = 400;
@@ -16,6 +18,45 @@ const STEPS: usize = 400;
 #[derive(Debug, Clone)]
 pub(crate) struct JointPath {
     knots: Vec<Knot>,
+    on_top: Option<Loop>,
+}
+
+/// A loop of two joints on a part of a path, from rest to rest: an ellipse that begins and ends where
+/// the path is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Loop {
+    pub joints: [usize; 2],
+    /// Half axes, rad or m.
+    pub radii: [f64; 2],
+    /// Where on the ellipse it begins, rad.
+    pub phase: f64,
+    /// How often it goes round; negative the other way.
+    pub turns: f64,
+    /// Fractions of the duration between which it goes.
+    pub from: f64,
+    pub to: f64,
+}
+
+impl Loop {
+    /// Adds what it moves the joints at a fraction of the duration, with derivatives by it.
+    fn add_at(&self, fraction: f64, q: &mut [f64], dq: &mut [f64], ddq: &mut [f64]) {
+        if fraction <= self.from || fraction >= self.to {
+            return;
+        }
+        let round = self.turns * TAU;
+        let along = quintic(fraction - self.from, self.to - self.from);
+        let [s, ds, dds] = along.map(|share| round * share);
+        let begins = self.phase.sin_cos();
+        let (sin, cos) = (self.phase + s).sin_cos();
+        let [i, j] = self.joints;
+        let [a, b] = self.radii;
+        q[i] += a * (cos - begins.1);
+        q[j] += b * (sin - begins.0);
+        dq[i] -= a * sin * ds;
+        dq[j] += b * cos * ds;
+        ddq[i] -= a * (cos * ds * ds + sin * dds);
+        ddq[j] += b * (cos * dds - sin * ds * ds);
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -31,7 +72,12 @@ impl JointPath {
     /// Through the way-points of `problem`'s task, and through `detours` between them: as many on
     /// each leg, at rest, the leg's time shared out by the distances.
     pub fn new(problem: &Problem, detours: &[Vec<f64>]) -> Self {
-        let passed = passed(problem);
+        Self::of(&problem.task, detours)
+    }
+
+    /// The same of a task alone.
+    pub fn of(task: &Task, detours: &[Vec<f64>]) -> Self {
+        let passed = passed(task);
         let legs = passed.len() - 1;
         let mut knots = Vec::new();
         for (leg, ends) in passed.windows(2).enumerate() {
@@ -40,16 +86,36 @@ impl JointPath {
             knots.extend(between(ends, &detours[share(leg)..share(leg + 1)]));
         }
         knots.extend(passed.into_iter().next_back());
-        Self { knots }
+        Self {
+            knots,
+            on_top: None,
+        }
+    }
+
+    /// The same with `on_top` added.
+    pub fn with_loop(self, on_top: Loop) -> Self {
+        Self {
+            on_top: Some(on_top),
+            ..self
+        }
+    }
+
+    /// Fractions of the duration at which the leg around `fraction` begins and ends.
+    pub fn leg_at(&self, fraction: f64) -> (f64, f64) {
+        let leg = self.leg(fraction);
+        (self.knots[leg].at, self.knots[leg + 1].at)
+    }
+
+    /// The leg around a fraction of the duration.
+    fn leg(&self, fraction: f64) -> usize {
+        let before = self.knots.partition_point(|knot| knot.at <= fraction);
+        before.clamp(1, self.knots.len() - 1) - 1
     }
 
     /// Positions, and first and second derivatives by the fraction of the duration.
-    fn at_fraction(&self, fraction: f64, q: &mut [f64], dq: &mut [f64], ddq: &mut [f64]) {
+    pub fn at_fraction(&self, fraction: f64, q: &mut [f64], dq: &mut [f64], ddq: &mut [f64]) {
         let knots = &self.knots;
-        let leg = knots
-            .partition_point(|knot| knot.at <= fraction)
-            .clamp(1, knots.len() - 1)
-            - 1;
+        let leg = self.leg(fraction);
         let (a, b) = (&knots[leg], &knots[leg + 1]);
         let width = b.at - a.at;
         let p = (fraction - a.at) / width;
@@ -66,14 +132,16 @@ impl JointPath {
             dq[i] = (start + p * p * (3.0 * c3 + p * (4.0 * c4 + p * 5.0 * c5))) / width;
             ddq[i] = p * (6.0 * c3 + p * (12.0 * c4 + p * 20.0 * c5)) / (width * width);
         }
+        if let Some(on_top) = self.on_top {
+            on_top.add_at(fraction, q, dq, ddq);
+        }
     }
 }
 
 /// Start, way-points and goal. Joints that have no position at a way-point are on the way from
 /// the one before to the one after; rates that are not given are those of the chord around it,
 /// or none where the joint turns back.
-fn passed(problem: &Problem) -> Vec<Knot> {
-    let task = &problem.task;
+fn passed(task: &Task) -> Vec<Knot> {
     let n = task.initial_joints.len();
     let points = &task.way_points;
     let mut at = vec![0.0];

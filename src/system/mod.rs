@@ -9,6 +9,7 @@
 //! | `pose_function` | derivatives of what depends on the attitude and the mass centre |
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
+//! | `starts/` | paths unlike each other to begin a search with |
 //! | `motion`, `metrics` | a motion over time, its figures, the base angle |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
 //! | `impossible/` | what no motion can do, found before any solve |
@@ -33,6 +34,7 @@ mod pose_function;
 mod quintic;
 mod row_values;
 mod rows;
+mod starts;
 mod straight_line;
 mod torques;
 mod trajectory;
@@ -48,6 +50,7 @@ pub use metrics::{at_nodes, base_angles, base_displacements, finely, metrics_of}
 pub use motion::{Metrics, Trajectory};
 pub use row_values::cost_terms;
 pub use rows::{BoundId, Component, Measure, Row};
+pub use starts::StartKind;
 pub use straight_line::{StraightLine, straight_line, straight_motion};
 pub use trajectory::{limited_angles, resampled};
 
@@ -57,4 +60,5 @@ pub(crate) use guess::{JointPath, along};
 pub(crate) use metrics::metrics;
 pub(crate) use quintic::quintic;
 pub(crate) use rows::{ROTATION_ANGLE, of_joint};
+pub(crate) use starts::Starts;
 pub(crate) use trajectory::trajectory;

@@ -37,8 +37,7 @@ pub struct LimitGroup {
 /// to be as small as possible: minimise Σ e_g + `regularization`·(the problem's own cost), plus
 /// a weight times ∫‖u‖² where asked.
 ///
-/// Each e_g is carried as a state that does not change, so that it couples neighbouring instants
-/// only and the transcription needs no special case.
+/// Each e_g is a static parameter.
 #[derive(Debug)]
 pub struct Elastic<'a, O> {
     pub(super) inner: &'a O,
@@ -167,10 +166,10 @@ impl<'a, O: Ocp> Elastic<'a, O> {
         &self.groups
     }
 
-    /// Where in the extended state the amounts e_g stand, in units of each group's scale.
+    /// Where among the static parameters the amounts e_g stand, in units of each group's scale.
     pub fn amounts(&self) -> std::ops::Range<usize> {
-        let n = self.base.states.len();
-        n..n + self.groups.len()
+        let first = self.base.parameters.len();
+        first..first + self.groups.len()
     }
 
     /// The two rows of one elastic bound: value − e·scale and value + e·scale.

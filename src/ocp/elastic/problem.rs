@@ -1,5 +1,5 @@
-//! The elastic problem: the one inside with a state more for each group of limits, and two rows for
-//! each bound that gives way.
+//! The elastic problem: the one inside with a static parameter more for each group of limits, and two
+//! rows for each bound that gives way.
 
 use super::derivatives::ElasticDerivatives;
 use super::limits::{AtInstant, Elastic, ElasticBound, OnPath};
@@ -7,6 +7,9 @@ use crate::autodiff::Scalar;
 use crate::ocp::{
     Ends, Formulation, InteriorPoint, Interval, Ocp, Point, PointDerivatives, Quantity,
 };
+
+/// What each amount begins with.
+const FIRST_AMOUNT: f64 = 1.0;
 
 impl<O: Ocp> Elastic<'_, O> {
     /// The two rows of each of `bounds`, from the states at that instant and the inner rows.
@@ -74,18 +77,10 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
                 formulation.way_points[w].rows.extend(rows);
             }
         }
-        for point in &mut formulation.way_points {
-            let amounts = self.groups.len();
-            point
-                .states
-                .extend(std::iter::repeat_n(Interval::FREE, amounts));
-        }
         for group in &self.groups {
             let amount = Interval::new(0.0, f64::INFINITY);
             let excess = Quantity::new(format!("excess of {}", group.name), amount);
-            formulation.states.push(excess.scaled(1.0));
-            formulation.initial.push(Interval::FREE);
-            formulation.terminal.push(Interval::FREE);
+            formulation = formulation.parameter(excess.scaled(1.0), FIRST_AMOUNT);
         }
         formulation
     }
@@ -104,21 +99,19 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         rates: &mut [S],
         path: &mut [S],
     ) -> S {
-        let n = self.base.states.len();
-        let (x, amounts) = point.x.split_at(n);
-        let (rates, still) = rates.split_at_mut(n);
-        let cost = self.inner.continuous(
-            Point { x, ..point },
-            &mut scratch.inner,
-            rates,
-            &mut scratch.path,
-        );
-        still.fill(S::zero());
+        let (parameters, amounts) = point.parameters.split_at(self.base.parameters.len());
+        let inner = Point {
+            parameters,
+            ..point
+        };
+        let cost = self
+            .inner
+            .continuous(inner, &mut scratch.inner, rates, &mut scratch.path);
         let own = scratch.path.len();
         path[..own].copy_from_slice(&scratch.path);
         for (rows, bound) in path[own..].chunks_exact_mut(2).zip(&self.path) {
             let value = match bound.quantity {
-                OnPath::State(i) => x[i],
+                OnPath::State(i) => point.x[i],
                 OnPath::Control(i) => point.u[i],
                 OnPath::Row(i) => scratch.path[i],
             };
@@ -139,8 +132,11 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         scratch: &mut Self::Scratch<S>,
         integrands: &mut [S],
     ) {
-        let x = &point.x[..self.base.states.len()];
-        let inner = Point { x, ..point };
+        let parameters = &point.parameters[..self.base.parameters.len()];
+        let inner = Point {
+            parameters,
+            ..point
+        };
         self.inner.integrands(inner, &mut scratch.inner, integrands);
     }
 
@@ -150,18 +146,12 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         scratch: &mut Self::Scratch<S>,
         rows: &mut [S],
     ) -> S {
-        let n = self.base.states.len();
-        let (x, amounts) = ends.terminal.split_at(n);
+        let (parameters, amounts) = ends.parameters.split_at(self.base.parameters.len());
         let (inner_rows, elastic_rows) = rows.split_at_mut(self.base.boundary.len());
-        let inner_ends = Ends {
-            initial: &ends.initial[..n],
-            terminal: x,
-            ..ends
-        };
-        let mut cost = self
-            .inner
-            .boundary(inner_ends, &mut scratch.inner, inner_rows)
-            * self.regularization;
+        let inner = Ends { parameters, ..ends };
+        let mut cost =
+            self.inner.boundary(inner, &mut scratch.inner, inner_rows) * self.regularization;
+        let x = ends.terminal;
         self.bound_ends(&self.boundary, x, amounts, inner_rows, elastic_rows);
         for &amount in amounts {
             cost += amount;
@@ -176,11 +166,15 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         rows: &mut [S],
     ) {
         let w = point.way_point;
-        let (x, amounts) = point.x.split_at(self.base.states.len());
+        let (parameters, amounts) = point.parameters.split_at(self.base.parameters.len());
         let (inner_rows, elastic_rows) = rows.split_at_mut(self.base.way_points[w].rows.len());
-        let inner = InteriorPoint { x, ..point };
+        let inner = InteriorPoint {
+            parameters,
+            ..point
+        };
         self.inner.way_point(inner, &mut scratch.inner, inner_rows);
-        self.bound_ends(&self.way_points[w], x, amounts, inner_rows, elastic_rows);
+        let bounds = &self.way_points[w];
+        self.bound_ends(bounds, point.x, amounts, inner_rows, elastic_rows);
     }
 
     fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {

@@ -28,7 +28,7 @@ pub(super) struct Diagnosed {
     pub feasible: bool,
     /// Whether the monitor stopped it.
     pub interrupted: bool,
-    /// The trajectory of least excess, without the excess states.
+    /// The trajectory of least excess, without the amounts of excess.
     pub trajectory: Discretization,
     pub statistics: Statistics,
 }

@@ -2,25 +2,28 @@
 //!
 //! On one mesh a programme may find an excess that no motion has, by moving between the points where
 //! nothing is asked. So a result counts as found only where its refinement converged, and the control
-//! has a weight: small where the motion stays smooth, else larger.
+//! has a weight, which falls from one refined solution to the next.
 
 use super::findings::{HELD, findings};
 use crate::collocation::Mesh;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, Statistics};
-use crate::ocp::{Elastic, Interval, LimitGroup, Ocp};
+use crate::ocp::{Elastic, LimitGroup, Ocp};
 use crate::planner::{Event, LimitFinding, PlanError, Starts};
 use crate::problem::Problem;
 use crate::refine::{self, CutShort, Method, Outcome, Refinement, Start};
-use crate::system::{ElasticLimit, FreeFloating, JointPath, along};
+use crate::system::{self, ElasticLimit, FreeFloating, JointPath, along};
 use crate::transcription::{Discretization, Patterns};
 
-/// Starts tried: the failed trajectory, the straight path, and paths through random detours.
-const STARTS: usize = 16;
+/// Starts of one search: the failed trajectory, the straight path, and paths with loops and detours.
+const STARTS: usize = 8;
+/// What their random numbers begin with.
+const SEED: u64 = 1;
 /// Starts in a row without a better result after which the search ends.
 const PATIENCE: usize = 5;
-/// How many of the best starts of a search are refined.
+/// How many of the best starts are refined, and how many are tried where others do not converge.
 const REFINED: usize = 2;
+const TRIED: usize = 5;
 /// Iterations of one solve of a search, and of one in the refinement; fewer where the solver's limit
 /// is lower.
 pub(super) const ITERATIONS: [u32; 2] = [300, 150];
@@ -35,11 +38,17 @@ const GROSS_STARTS: usize = 3;
 /// Weight of the problem's own cost, so that the least relaxation is not degenerate.
 const REGULARIZATION: f64 = 1e-5;
 /// Weights of the control in the searches, each as the part of the excess along the straight path
-/// that the least control from start to goal costs. The second search is made where the solutions of
-/// the first are no motions.
-const SEARCHED: [f64; 2] = [1e-6, 1e-3];
-/// The same in the refinement, the next where one does not converge.
-const REFINED_CONTROL: [f64; 3] = [1e-6, 1e-4, 1e-3];
+/// that the least control from start to goal costs. The larger keeps motions smooth, the smaller finds
+/// those that need much control.
+const SEARCHED: [f64; 2] = [1e-4, 1e-6];
+/// Weights of the control in the refinement, one after another, from one that is at most so many times
+/// that of the search: what was found on a coarse mesh is hardly a motion yet.
+const FIRST_WEIGHT: f64 = 5.0;
+const WEIGHTS: [f64; 5] = [1e-4, 3e-5, 1e-5, 3e-6, 1e-6];
+/// Relative gain below which a still lower weight is not tried.
+const LOWER_WEIGHT_GAIN: f64 = 0.02;
+/// Barrier parameter that a solve with a lower weight begins with.
+const LOWER_WEIGHT_BARRIER: f64 = 1e-3;
 /// Mesh iterations of the refinement.
 const MESHES: usize = 10;
 /// Excess that the straight path is taken to have at least.
@@ -67,17 +76,25 @@ pub(super) struct Search<'a, 'm, Sp: Space> {
 
 /// Where one start ended.
 struct Candidate {
+    /// The control's weight of its search.
+    part: f64,
     /// The sum of the amounts by which limits are exceeded.
     excess: f64,
     /// The largest error (28).
     error: f64,
-    /// The trajectory with the states of excess.
+    /// The trajectory with the amounts among its static parameters.
     trajectory: Discretization,
 }
 
 impl Candidate {
     fn is_gross(&self) -> bool {
         self.error.is_nan() || self.error >= GROSS
+    }
+
+    /// Motions before what is none, then the least excess.
+    fn order(&self, other: &Self) -> std::cmp::Ordering {
+        let gross = self.is_gross().cmp(&other.is_gross());
+        gross.then(self.excess.total_cmp(&other.excess))
     }
 }
 
@@ -93,7 +110,7 @@ struct Candidates {
 
 impl Candidates {
     /// Adds what a start ended at, where it was solved; whether the search may end.
-    fn add<O: Ocp>(&mut self, outcome: &Outcome, elastic: &Elastic<'_, O>) -> bool {
+    fn add<O: Ocp>(&mut self, part: f64, outcome: &Outcome, elastic: &Elastic<'_, O>) -> bool {
         self.starts.tried += 1;
         if !outcome.status.is_solved() {
             return false;
@@ -115,6 +132,7 @@ impl Candidates {
         let place = self.found.partition_point(|other| other.excess <= excess);
         let error = outcome.max_error();
         let candidate = Candidate {
+            part,
             excess,
             error,
             trajectory: outcome.trajectory.clone(),
@@ -150,65 +168,111 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             starts: Starts::default(),
             interrupted: false,
         };
-        let mut least = f64::INFINITY;
+        let mut candidates = Vec::new();
         for part in SEARCHED {
-            let candidates = self.try_starts(&elastic(part), &patterns, &mut found)?;
-            let rough = candidates.first().is_none_or(Candidate::is_gross);
-            for candidate in candidates.into_iter().take(REFINED) {
-                let states = self.system.formulation().states.len();
-                let motion = || strip(&candidate.trajectory, states);
-                found.trajectory.get_or_insert_with(motion);
-                let parts = &REFINED_CONTROL[usize::from(candidate.is_gross())..];
-                for part in parts {
-                    if found.interrupted || self.deadline.has_passed() {
-                        return Ok(Some(found));
-                    }
-                    let elastic = elastic(*part);
-                    let outcome = self.solve(&elastic, &patterns, MESHES, &candidate.trajectory)?;
-                    found.interrupted = outcome.cut_short == Some(CutShort::Interrupted);
-                    if !outcome.converged {
-                        continue;
-                    }
-                    let excess = excess(&outcome.trajectory, &elastic);
-                    if excess < least {
-                        least = excess;
-                        found.converged = true;
-                        found.trajectory = Some(strip(&outcome.trajectory, states));
-                    }
-                    break;
-                }
+            let feasible = self.try_starts(part, &elastic(part), &patterns, &mut found)?;
+            candidates.extend(feasible);
+            let held = candidates.iter().any(|candidate| candidate.excess < HELD);
+            if held || found.interrupted || self.deadline.has_passed() {
+                break;
             }
-            if !rough || least < HELD {
+        }
+        candidates.sort_by(Candidate::order);
+        let mut least = f64::INFINITY;
+        let mut refined = 0;
+        for candidate in candidates.into_iter().take(TRIED) {
+            // A finer mesh asks at more points, so that the excess rises where no weight is lowered.
+            if candidate.part <= WEIGHTS[WEIGHTS.len() - 1] && candidate.excess > least {
+                continue;
+            }
+            let motion = || strip(&candidate.trajectory, &elastic(candidate.part));
+            found.trajectory.get_or_insert_with(motion);
+            let converged =
+                self.descend(&candidate, &elastic, &patterns, &mut found, &mut least)?;
+            refined += usize::from(converged);
+            if least < HELD || refined == REFINED {
                 break;
             }
         }
         Ok(Some(found))
     }
 
-    /// Solves `elastic` on the first mesh from one start after another.
+    /// Refines `candidate`, then lowers the weight of the control for as long as that gains and
+    /// converges; `found` and its excess `least` become what is better. Whether any converged.
+    fn descend<'e>(
+        &mut self,
+        candidate: &Candidate,
+        elastic: &dyn Fn(f64) -> Elastic<'e, FreeFloating<Sp>>,
+        patterns: &Patterns,
+        found: &mut Found,
+        least: &mut f64,
+    ) -> Result<bool, PlanError> {
+        let mut from = Start {
+            trajectory: candidate.trajectory.clone(),
+            iterate: None,
+        };
+        let mut before = f64::INFINITY;
+        for part in WEIGHTS
+            .into_iter()
+            .filter(|part| *part <= FIRST_WEIGHT * candidate.part)
+        {
+            if found.interrupted || self.deadline.has_passed() {
+                break;
+            }
+            let elastic = elastic(part);
+            let outcome = self.solve(&elastic, patterns, MESHES, &from)?;
+            found.interrupted = outcome.cut_short == Some(CutShort::Interrupted);
+            if !outcome.converged {
+                break;
+            }
+            let excess = excess(&outcome.trajectory, &elastic);
+            if excess < *least {
+                *least = excess;
+                found.converged = true;
+                found.trajectory = Some(strip(&outcome.trajectory, &elastic));
+            }
+            let enough = excess < HELD || excess > before * (1.0 - LOWER_WEIGHT_GAIN);
+            before = excess;
+            if enough {
+                break;
+            }
+            from = Start {
+                trajectory: outcome.trajectory,
+                iterate: Some(outcome.iterate),
+            };
+        }
+        Ok(before.is_finite())
+    }
+
+    /// Solves `elastic`, in which the control's weight is `part`, on the first mesh from one start after
+    /// another.
     fn try_starts(
         &mut self,
+        part: f64,
         elastic: &Elastic<'_, FreeFloating<Sp>>,
         patterns: &Patterns,
         found: &mut Found,
     ) -> Result<Vec<Candidate>, PlanError> {
         let fractions = self.system.formulation().way_point_fractions();
         let mesh = self.settings(1).first_mesh()?.through(&fractions)?;
-        let mut random = fastrand::Rng::with_seed(1);
+        let starts = system::Starts::new(self.problem, self.system, SEED);
         let mut candidates = Candidates::default();
         for start in 0..STARTS {
             let event = Event::Diagnosing {
-                start: start + 1,
-                of: STARTS,
+                start: found.starts.tried + start + 1,
+                of: STARTS * SEARCHED.len(),
             };
             if (self.monitor)(&event) == Control::Stop {
                 found.interrupted = true;
                 break;
             }
-            let from = extend(&self.start(start, &mesh, &mut random), elastic);
+            let from = Start {
+                trajectory: extend(self.start(start, &mesh, &starts), elastic),
+                iterate: None,
+            };
             let outcome = self.solve(elastic, patterns, 1, &from)?;
             found.interrupted = outcome.cut_short == Some(CutShort::Interrupted);
-            let enough = candidates.add(&outcome, elastic);
+            let enough = candidates.add(part, &outcome, elastic);
             if enough || found.interrupted || self.deadline.has_passed() {
                 break;
             }
@@ -233,13 +297,13 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         elastic: &Elastic<'_, FreeFloating<Sp>>,
         patterns: &Patterns,
         meshes: usize,
-        trajectory: &Discretization,
+        from: &Start,
     ) -> Result<Outcome, PlanError> {
         let own = &self.problem.solver;
         let solver = nlp::Settings {
             tolerance: own.tolerance.max(1e-7),
             max_iterations: own.max_iterations.min(ITERATIONS[usize::from(meshes > 1)]),
-            warm_start: None,
+            warm_start: from.iterate.is_some().then_some(LOWER_WEIGHT_BARRIER),
             time_limit: self.deadline.remaining(),
             ..own.clone()
         };
@@ -249,13 +313,8 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             settings: &self.settings(meshes),
             solver: &solver,
         };
-        let from = Start {
-            trajectory: trajectory.clone(),
-            iterate: None,
-        };
-        let outcome = refinement.run(&from, &mut |event| {
-            (self.monitor)(&Event::Refinement(event))
-        })?;
+        let outcome =
+            refinement.run(from, &mut |event| (self.monitor)(&Event::Refinement(event)))?;
         self.statistics.add(&outcome.statistics);
         Ok(outcome)
     }
@@ -290,79 +349,34 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         Ok(excess.max(LEAST_EXCESS) / effort)
     }
 
-    /// The failed trajectory first, then paths through more and more detours.
-    fn start(&self, index: usize, mesh: &Mesh, random: &mut fastrand::Rng) -> Discretization {
+    /// The failed trajectory first, then the straight path and others.
+    fn start(&self, index: usize, mesh: &Mesh, starts: &system::Starts<'_>) -> Discretization {
         if index == 0 {
             return self.failed.resample(mesh.clone());
         }
-        let path = JointPath::new(self.problem, &self.detours(index, random));
+        let (_, path) = starts.path(index - 1);
         let duration = self.problem.task.duration.center();
         along(self.system, duration, &path, mesh.clone())
-    }
-
-    /// None for the first path, then one to four points within the joints' limits.
-    fn detours(&self, start: usize, random: &mut fastrand::Rng) -> Vec<Vec<f64>> {
-        let count = (start - 1) % 5;
-        let task = &self.problem.task;
-        (0..count)
-            .map(|_| {
-                let within = |(j, bounds): (usize, &Interval)| {
-                    // Without limits: a radian or metre around start and goal.
-                    let ends = [task.initial_joints[j], task.final_joints[j]];
-                    let around =
-                        Interval::new(ends[0].min(ends[1]) - 1.0, ends[0].max(ends[1]) + 1.0);
-                    let lower = if bounds.lower.is_finite() {
-                        bounds.lower
-                    } else {
-                        around.lower
-                    };
-                    let upper = if bounds.upper.is_finite() {
-                        bounds.upper
-                    } else {
-                        around.upper
-                    };
-                    lower + random.f64() * (upper - lower)
-                };
-                self.problem
-                    .limits
-                    .joint_position
-                    .iter()
-                    .enumerate()
-                    .map(within)
-                    .collect()
-            })
-            .collect()
     }
 }
 
 /// The sum of the amounts by which limits are exceeded, each in units of its own size.
 fn excess<O: Ocp>(trajectory: &Discretization, elastic: &Elastic<'_, O>) -> f64 {
-    let last = trajectory.state(trajectory.mesh.points());
-    last[elastic.amounts()].iter().sum()
+    trajectory.parameters[elastic.amounts()].iter().sum()
 }
 
-/// The trajectory with excess states of one unit.
-fn extend<O: Ocp>(trajectory: &Discretization, elastic: &Elastic<'_, O>) -> Discretization {
-    let count = elastic.amounts().len();
-    let x = trajectory
-        .x
-        .chunks_exact(trajectory.states)
-        .flat_map(|row| row.iter().copied().chain(std::iter::repeat_n(1.0, count)))
-        .collect();
-    Discretization {
-        x,
-        states: trajectory.states + count,
-        ..trajectory.clone()
-    }
+/// The trajectory with the first amounts of `elastic`.
+fn extend<O: Ocp>(trajectory: Discretization, elastic: &Elastic<'_, O>) -> Discretization {
+    let guess = elastic.formulation().parameter_guess;
+    let mut parameters = trajectory.parameters.clone();
+    parameters.extend(&guess[elastic.amounts()]);
+    let from = trajectory.initial_time;
+    trajectory.with(from, parameters)
 }
 
-/// The trajectory's first `states` states.
-fn strip(trajectory: &Discretization, states: usize) -> Discretization {
-    let rows = trajectory.x.chunks_exact(trajectory.states);
-    let x = rows.flat_map(|row| row[..states].iter().copied()).collect();
-    Discretization {
-        x,
-        states,
-        ..trajectory.clone()
-    }
+/// The trajectory without the amounts of `elastic`.
+fn strip<O: Ocp>(trajectory: &Discretization, elastic: &Elastic<'_, O>) -> Discretization {
+    let mut parameters = trajectory.parameters.clone();
+    parameters.truncate(elastic.amounts().start);
+    trajectory.clone().with(trajectory.initial_time, parameters)
 }
