@@ -85,7 +85,9 @@ impl<'a, O: Ocp> Conditioning<'a, O> {
     pub fn measured(&self, errors: Errors, settings: &Settings) -> Errors {
         match settings.error {
             ErrorMeasure::Paper => errors,
-            ErrorMeasure::Relative => errors.in_units_of(&self.scales.states()),
+            ErrorMeasure::Relative => {
+                errors.in_units_of(&self.scales.states(), &self.scales.integrals())
+            }
         }
     }
 

@@ -56,8 +56,7 @@ impl Curvature {
         }
         let total = cumulative[SAMPLES - 1];
         if !total.is_finite() {
-            let even = |i| -1.0 + 2.0 * i as f64 / parts as f64;
-            return (1..parts).map(even).collect();
+            return even_cuts(parts);
         }
         (1..parts)
             .map(|i| {
@@ -70,6 +69,12 @@ impl Curvature {
             })
             .collect()
     }
+}
+
+/// Breakpoints in (−1, 1) that cut a segment into so many equal parts.
+pub(super) fn even_cuts(parts: usize) -> Vec<f64> {
+    let even = |i| -1.0 + 2.0 * i as f64 / parts as f64;
+    (1..parts).map(even).collect()
 }
 
 #[cfg(test)]

@@ -41,7 +41,7 @@ mod verdict;
 mod violation;
 
 pub use driver::{Event, Refinement};
-pub use error::{Errors, midpoint_errors};
+pub use error::{Erring, Errors, midpoint_errors};
 pub use failure::SolveError;
 pub use law::{Assessment, Refined, RefinementLaw};
 pub use method::Method;

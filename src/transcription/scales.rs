@@ -119,6 +119,11 @@ impl Scales {
         values(&self.states).collect()
     }
 
+    /// Those of the integrals.
+    pub fn integrals(&self) -> Vec<f64> {
+        values(&self.integrals).collect()
+    }
+
     /// Units of the programme of `layout`.
     pub fn units(&self, layout: &Layout) -> Units {
         let mut units = Units {

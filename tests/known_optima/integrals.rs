@@ -133,3 +133,42 @@ fn a_length_below_that_of_the_line_is_infeasible() {
     let outcome = ffsm_ipopt::ocp::solve(&Dido { length: 0.9 }, &settings).unwrap();
     assert!(!outcome.converged && !outcome.status.is_solved());
 }
+
+/// A point that goes from 0 to 10 with least ∫u², past a source of dose 1/(1 + 400(x − 5)²).
+struct Dose;
+
+impl Ocp for Dose {
+    type Scratch<S: Scalar> = ();
+
+    fn formulation(&self) -> Formulation {
+        let [start, end] = [0.0, 10.0].map(Interval::fixed);
+        Formulation::over(Interval::fixed(10.0))
+            .state(Quantity::new("place", Interval::FREE), start, end)
+            .control(Quantity::new("speed", Interval::FREE))
+            .integral(Quantity::new("dose", Interval::FREE))
+    }
+
+    fn scratch<S: Scalar>(&self) {}
+
+    fn continuous<S: Scalar>(&self, p: Point<'_, S>, _: &mut (), f: &mut [S], _: &mut [S]) -> S {
+        f[0] = p.u[0];
+        p.u[0].square()
+    }
+
+    fn integrands<S: Scalar>(&self, p: Point<'_, S>, _: &mut (), g: &mut [S]) {
+        let off = p.x[0] - S::constant(5.0);
+        g[0] = S::one() / (off.square() * 400.0 + S::one());
+    }
+}
+
+/// The states are straight lines, exact on any mesh; the integral is not: its error refines.
+#[test]
+fn an_integral_is_as_accurate_as_a_state() {
+    let coarse = solve(&Dose, &refined(4, 4, 1e-6, 1));
+    assert!(!coarse.converged, "{:e}", coarse.max_error());
+    let outcome = solve(&Dose, &refined(4, 4, 1e-6, 20));
+    assert!(outcome.converged, "{:e}", outcome.max_error());
+    // ∫ dx/(1 + 400(x − 5)²) from 0 to 10 is arctan(100)/10.
+    let dose = outcome.trajectory.integrals[0];
+    assert!((dose - 100.0_f64.atan() / 10.0).abs() < 1e-6, "{dose}");
+}

@@ -19,8 +19,10 @@
 
 use super::raise::{decades, raised};
 use crate::collocation::{Mesh, MeshError};
-use crate::refine::curvature::Curvature;
-use crate::refine::{Assessment, Decision, Record, Refined, RefinementLaw, Settings, Violation};
+use crate::refine::curvature::{Curvature, even_cuts};
+use crate::refine::{
+    Assessment, Decision, Erring, Record, Refined, RefinementLaw, Settings, Violation,
+};
 
 /// The largest error of segment `s` on the mesh before, where it was the same segment with fewer
 /// points.
@@ -139,18 +141,27 @@ impl RefinementLaw for Law<'_> {
 impl Law<'_> {
     fn change(&self, assessment: &Assessment<'_>, s: usize) -> Change {
         let settings = self.0;
-        let (state, error) = assessment.errors.worst(s);
+        let (erring, error) = assessment.errors.worst(s);
         if error <= settings.tolerance {
             return self.cut_at_violation(&assessment.violations[s]);
         }
         let rough = error_before(assessment, s).is_some_and(|before| error > SMOOTH * before);
-        let curvature = Curvature::new(assessment.trajectory, s, state);
         let wanted = raised(settings, assessment.trajectory.mesh.rule(s).len(), error);
-        if rough || curvature.ratio() > settings.r_max || wanted > settings.max_points {
-            let parts = settings.lambda1 * decades(error, settings.tolerance);
-            Change::Divide(curvature.cuts((parts.round() as usize).max(2)))
-        } else {
-            Change::Raise(wanted)
+        let parts = settings.lambda1 * decades(error, settings.tolerance);
+        let parts = (parts.round() as usize).max(2);
+        let full = rough || wanted > settings.max_points;
+        match erring {
+            Erring::State(state) => {
+                let curvature = Curvature::new(assessment.trajectory, s, state);
+                if full || curvature.ratio() > settings.r_max {
+                    Change::Divide(curvature.cuts(parts))
+                } else {
+                    Change::Raise(wanted)
+                }
+            }
+            // An integral has no curve of its own.
+            Erring::Integral(_) if full => Change::Divide(even_cuts(parts)),
+            Erring::Integral(_) => Change::Raise(wanted),
         }
     }
 
@@ -231,6 +242,7 @@ mod tests {
             trajectory: &trajectory,
             errors: &Errors {
                 by_segment: vec![vec![error]],
+                integrals: vec![Vec::new()],
             },
             before: None,
             violations: &[violation.into_iter().collect()],

@@ -61,6 +61,7 @@ mod tests {
             trajectory: &Discretization::sample(mesh, 1.0, 1, 0, |_, _, _| {}),
             errors: &Errors {
                 by_segment: vec![vec![1e-9], vec![error]],
+                integrals: vec![Vec::new(); 2],
             },
             before: None,
             violations: &[vec![], vec![]],
