@@ -96,7 +96,7 @@ fn add(
         match found.by(method) {
             Some(plan) => {
                 let own = OutputFolder::create(&own)?;
-                super::plan::add(file, plan, &own, set)?;
+                super::plan::add(file, plan, None, &own, set)?;
             }
             None if own.is_dir() => super::plan::remove(&OutputFolder::create(&own)?, set),
             None => {}

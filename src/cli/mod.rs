@@ -17,6 +17,7 @@ mod report;
 mod reproduce;
 mod rows;
 mod schema;
+mod search;
 mod show;
 mod simulate;
 mod steps;

@@ -2,12 +2,15 @@
 
 use super::failure::Failure;
 use super::progress::Progress;
+use super::search::SearchArguments;
 use super::{Outcome, interrupt, terminal};
 use crate::config::{ConfigError, Overrides, ProblemFile};
-use crate::planner::{Method, Plan, Planner, Status};
+use crate::planner::{Method, Plan, PlanError, Planner, Start, Status};
+use crate::problem::Problem;
 use crate::report::{self, FileSet, OutputFolder};
 use crate::solution::{self, Provenance};
-use crate::verify;
+use crate::study::search::{Optima, Search};
+use crate::{refine, verify};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -40,6 +43,8 @@ pub(super) struct Arguments {
     /// Saved solution to start from
     #[arg(long, value_name = "solution.json")]
     warm_start: Option<PathBuf>,
+    #[command(flatten)]
+    search: SearchArguments,
     /// Print the solution as one JSON document
     #[arg(long)]
     json: bool,
@@ -125,17 +130,35 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let method = arguments
         .method
         .map_or(of_file, |MethodName(method)| method);
-    let plan = Planner::new().plan_by(method, &file.problem, start.as_ref(), &mut |event| {
-        progress.show(event)
-    });
+    let planned = match arguments.search.of(method)? {
+        Some((search, method)) => searched(
+            &search,
+            method,
+            &file.problem,
+            start.as_ref(),
+            &mut progress,
+        ),
+        None => Planner::new()
+            .plan_by(method, &file.problem, start.as_ref(), &mut |event| {
+                progress.show(event)
+            })
+            .map(|plan| (plan, None)),
+    };
     progress.finish();
-    let mut plan = plan.map_err(|error| Failure::planning(&file, warm_start, error))?;
+    let (mut plan, optima) =
+        planned.map_err(|error| Failure::planning(&file, warm_start, error))?;
     plan.verify(&file.problem);
 
     let mut set = FileSet::new();
-    let json = add(&file, &plan, &folder, &mut set)?;
+    let json = add(&file, &plan, optima.as_ref(), &folder, &mut set)?;
     let files = set.write()?;
-    let summary = || report::summary(&file.problem, &plan, &files);
+    let summary = || {
+        let summary = report::summary(&file.problem, &plan, &files);
+        match &optima {
+            Some(optima) => format!("{summary}\n{}", report::optima(optima)),
+            None => summary,
+        }
+    };
     if arguments.json {
         terminal::print(&json)?;
     }
@@ -155,6 +178,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     })
 }
 
+/// The best plan of a search, with all that it found.
+fn searched(
+    search: &Search,
+    method: refine::Method,
+    problem: &Problem,
+    start: Option<&Start>,
+    progress: &mut Progress,
+) -> Result<(Plan, Option<Optima>), PlanError> {
+    let problem = problem.edited(|problem| problem.mesh.method = method)?;
+    let found = search.run(&problem, start, &mut |event| progress.show_search(event))?;
+    Ok((found.plan, Some(found.optima)))
+}
+
 /// What a user should know of how the files were read.
 pub(super) fn say(file: &ProblemFile) {
     for change in &file.repairs {
@@ -169,11 +205,13 @@ pub(super) fn say(file: &ProblemFile) {
 pub(super) fn add(
     file: &ProblemFile,
     plan: &Plan,
+    optima: Option<&Optima>,
     folder: &OutputFolder,
     set: &mut FileSet,
 ) -> Result<String, Failure> {
     let provenance = Provenance::of(file, &plan.linear_solver);
-    let saved = solution::solution(&file.problem.name, plan, provenance);
+    let mut saved = solution::solution(&file.problem.name, plan, provenance);
+    saved.search = optima.map(solution::search);
     let failure = |message: String| Failure::Format {
         path: file.path.clone(),
         message,

@@ -6,6 +6,7 @@ use crate::nlp::Control;
 use crate::nlp::ipopt::interrupt;
 use crate::planner::Event;
 use crate::refine::{self, Record};
+use crate::study::search::SearchEvent;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::Duration;
@@ -84,6 +85,48 @@ impl Progress {
             }
         }
         Control::Continue
+    }
+
+    /// Shows a step of a search.
+    pub(super) fn show_search(&mut self, event: &SearchEvent<'_>) -> Control {
+        let message = match event {
+            SearchEvent::Tried { tried, of, best } => {
+                let best = match best.is_finite() {
+                    true => format!(", J {best:.6} at best"),
+                    false => String::new(),
+                };
+                let message = format!("start {tried} of {of}{best}");
+                self.log_end(&message);
+                message
+            }
+            SearchEvent::Refining {
+                candidate,
+                of,
+                event,
+            } => {
+                self.follow(event);
+                let message = format!("best {candidate} of {of}: {}", self.message(event));
+                if let Event::Refinement(refine::Event::Solved(_)) = event {
+                    self.log_end(&message);
+                }
+                message
+            }
+        };
+        if !self.bar.is_hidden() {
+            self.bar.set_message(format!("{}: {message}", self.title));
+        }
+        match interrupt::requested() {
+            true => Control::Stop,
+            false => Control::Continue,
+        }
+    }
+
+    /// A line where there is no terminal.
+    fn log_end(&mut self, message: &str) {
+        if let Some(log) = &mut self.log {
+            log.end(format!("{}: {message}", self.title));
+            log.due().iter().for_each(|line| terminal::complain(line));
+        }
     }
 
     /// Takes down which mesh is solved from here on.

@@ -21,10 +21,10 @@ pub use json::to_json;
 pub use provenance::{ProblemSource, Provenance, TextFile};
 pub use read::{Saved, SolutionError, parse_solution, read_solution};
 pub use schema::{
-    CostTerm, Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Solution, Timing,
-    Trajectory, Verification,
+    CostTerm, Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Optimum, Search,
+    Solution, Timing, Trajectory, Verification,
 };
 pub use warm_start::{OtherRobot, WarmStart, read_warm_start};
-pub use write::solution;
+pub use write::{search, solution};
 
 pub(crate) use write::{timing, verification};

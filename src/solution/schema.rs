@@ -2,6 +2,7 @@
 
 use super::{Provenance, number};
 use crate::planner::Status;
+use crate::system::StartKind;
 use serde::{Deserialize, Serialize};
 
 /// The whole file. SI units and radians; numbers that are not finite are null.
@@ -43,6 +44,9 @@ pub struct Solution {
     /// Goals for the end effector, in the order of time, and how near they are met.
     #[serde(default)]
     pub goals: Vec<Goal>,
+    /// What a search from many starts found; null where the plan began with one.
+    #[serde(default)]
+    pub search: Option<Search>,
     /// Independent re-integration; null where there was none.
     pub verification: Option<Verification>,
     /// Why there is no plan; null unless infeasible.
@@ -70,6 +74,44 @@ pub struct CostTerm {
     /// Its value, with its weights.
     #[serde(with = "number")]
     pub value: f64,
+}
+
+/// A search from many starts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Search {
+    /// What the random numbers began with.
+    pub seed: u64,
+    /// Starts that were tried.
+    pub tried: usize,
+    /// Those that were solved on the first mesh.
+    pub solved: usize,
+    /// The distinct optima, the best first.
+    pub optima: Vec<Optimum>,
+}
+
+/// An optimum that starts ended at.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Optimum {
+    /// Cost J; on the first mesh where it was not refined.
+    #[serde(with = "number")]
+    pub objective: f64,
+    /// Largest base angle along the path, rad.
+    #[serde(with = "number")]
+    pub max_base_attitude: f64,
+    /// Base angle at t_f, rad.
+    #[serde(with = "number")]
+    pub final_base_attitude: f64,
+    /// How many starts ended there.
+    pub hits: usize,
+    /// The first of them, counted from 0.
+    pub start: usize,
+    /// What that start was: "straight", "loop", "detour", "other-goal", "reaction-null-space" or
+    /// "given".
+    pub kind: StartKind,
+    /// How its refinement ended; null where it was not refined.
+    pub status: Option<Status>,
 }
 
 /// One mesh iteration.

@@ -6,7 +6,8 @@ use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::ocp::Interval;
 use crate::planner::{self, Plan};
 use crate::refine::Record;
-use crate::{nlp, system, verify};
+use crate::study::search::Optima;
+use crate::{nlp, study, system, verify};
 
 /// The solution file of `plan` for the problem `name`.
 pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
@@ -33,12 +34,32 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
         trajectory: trajectory(&plan.trajectory),
         metrics: metrics(&plan.metrics),
         goals: goals(&plan.goals),
+        search: None,
         verification: plan.verification.as_ref().map(verification),
         diagnosis: plan.diagnosis.as_ref().map(diagnosis),
         warnings: plan.warnings.clone(),
         timing: timing(&plan.timing),
         provenance,
         iterate: iterate(&plan.iterate),
+    }
+}
+
+/// What a search found.
+pub fn search(optima: &Optima) -> Search {
+    let optimum = |found: &study::search::Optimum| Optimum {
+        objective: found.objective,
+        max_base_attitude: found.max_base_attitude,
+        final_base_attitude: found.final_base_attitude,
+        hits: found.hits,
+        start: found.start,
+        kind: found.kind,
+        status: found.status,
+    };
+    Search {
+        seed: optima.seed,
+        tried: optima.tried,
+        solved: optima.solved,
+        optima: optima.found.iter().map(optimum).collect(),
     }
 }
 

@@ -39,7 +39,7 @@ pub(crate) struct Loop {
 
 impl Loop {
     /// Adds what it moves the joints at a fraction of the duration, with derivatives by it.
-    fn add_at(&self, fraction: f64, q: &mut [f64], dq: &mut [f64], ddq: &mut [f64]) {
+    pub fn add_at(&self, fraction: f64, q: &mut [f64], dq: &mut [f64], ddq: &mut [f64]) {
         if fraction <= self.from || fraction >= self.to {
             return;
         }

@@ -34,12 +34,22 @@ pub fn plan(problem: &Problem) -> Result<Plan, PlanError> {
 #[derive(Debug, Default)]
 pub struct Planner {
     sparsity: SparsityCache,
+    /// Whether a plan that is not found is left without asking why.
+    leaves_why: bool,
 }
 
 impl Planner {
     /// A planner with nothing kept yet.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// The same without the diagnosis of what is not found: such plans end as not converged.
+    pub fn without_diagnosis(self) -> Self {
+        Self {
+            leaves_why: true,
+            ..self
+        }
     }
 
     /// Plans `problem` from a straight joint path.
@@ -92,7 +102,10 @@ impl Planner {
             solver: &solver,
             deadline: Deadline::after(solver.time_limit),
         };
-        let found = search.run(&start, monitor)?;
+        let found = match self.leaves_why {
+            true => search.refine(&start, monitor)?,
+            false => search.run(&start, monitor)?,
+        };
         Ok(assemble(problem, system, found, &solver, began))
     }
 }

@@ -8,8 +8,10 @@
 //! | file | does |
 //! | --- | --- |
 //! | `curvature` | which pairs of joints turn the base most by a loop |
+//! | `perturb` | a detour or a loop on top of a trajectory |
 
 mod curvature;
+mod perturb;
 
 use super::free_floating::FreeFloating;
 use super::guess::{JointPath, Loop};
@@ -17,7 +19,9 @@ use crate::dynamics::JointKind;
 use crate::dynamics::space::Space;
 use crate::ocp::Interval;
 use crate::problem::Problem;
+use crate::transcription::Discretization;
 use curvature::{Plane, planes};
+use perturb::{OnTop, perturbed};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -37,6 +41,8 @@ pub enum StartKind {
     OtherGoal,
     /// The path through the reaction null space.
     ReactionNullSpace,
+    /// An optimum that was found, with a detour or a loop on top of it.
+    Perturbed,
     /// A trajectory that was given.
     Given,
 }
@@ -49,13 +55,23 @@ impl fmt::Display for StartKind {
             Self::Detour => "detour",
             Self::OtherGoal => "other joints at the goal",
             Self::ReactionNullSpace => "reaction null space",
+            Self::Perturbed => "perturbed optimum",
             Self::Given => "given",
         })
     }
 }
 
+/// Joints that count as many: their arm has more ways round than loops of two joints.
+const MANY: usize = 4;
 /// Kinds of starts in turn, after the straight path.
-const TURNS: [StartKind; 3] = [StartKind::Loop, StartKind::Loop, StartKind::Detour];
+const TURNS: [StartKind; 4] = [
+    StartKind::Detour,
+    StartKind::Loop,
+    StartKind::Detour,
+    StartKind::Detour,
+];
+/// The same of few joints.
+const TURNS_OF_FEW: [StartKind; 3] = [StartKind::Loop, StartKind::Loop, StartKind::Detour];
 /// The same where joints at the goal are for the planner to find.
 const TURNS_TO_GOALS: [StartKind; 4] = [
     StartKind::Loop,
@@ -68,11 +84,13 @@ const RADII: Interval = Interval {
     lower: 0.4,
     upper: 1.2,
 };
-/// The same of a detour.
+/// The same of a detour: standard deviation of each joint.
 const DETOURS: Interval = Interval {
-    lower: 1.2,
-    upper: 2.4,
+    lower: 2.4,
+    upper: 4.8,
 };
+/// Standard deviation of a detour on top of an optimum, as a part of [`Starts::reach`].
+const BUMP: f64 = 1.2;
 /// Radius that a joint without limits may go, rad.
 const RADIAN: f64 = 1.0;
 /// The least a sliding joint is taken to reach, m.
@@ -123,14 +141,14 @@ impl<'a> Starts<'a> {
         let Some(turn) = index.checked_sub(1) else {
             return (StartKind::Straight, JointPath::new(self.problem, &[]));
         };
-        // Each has numbers of its own, so that none depends on how many were asked for before.
-        let mut random = fastrand::Rng::with_seed(self.seed.wrapping_add(index as u64));
-        random.u64(..);
+        let mut random = self.random(index);
         let free = self.problem.task.free_joints.contains(&true);
-        let kind = match free {
-            true => TURNS_TO_GOALS[turn % TURNS_TO_GOALS.len()],
-            false => TURNS[turn % TURNS.len()],
+        let turns: &[StartKind] = match free {
+            true => &TURNS_TO_GOALS,
+            false if self.reach.len() < MANY => &TURNS_OF_FEW,
+            false => &TURNS,
         };
+        let kind = turns[turn % turns.len()];
         let path = match kind {
             StartKind::Loop if !self.planes.is_empty() => self.looped(&mut random),
             StartKind::OtherGoal => return (kind, self.to_another_goal(&mut random)),
@@ -139,36 +157,63 @@ impl<'a> Starts<'a> {
         (kind, path)
     }
 
+    /// Random numbers of start `index` alone, so that none depends on how many were drawn before.
+    fn random(&self, index: usize) -> fastrand::Rng {
+        let mut random = fastrand::Rng::with_seed(self.seed);
+        fastrand::Rng::with_seed(random.u64(..) ^ index as u64)
+    }
+
+    /// `optimum` with a detour or a loop on top of it, as start `index`; the base is left as it is.
+    pub fn perturbed(&self, optimum: &Discretization, index: usize) -> Discretization {
+        let mut random = self.random(index);
+        let legs = JointPath::new(self.problem, &[]);
+        let on_top = match random.bool() && !self.planes.is_empty() {
+            true => OnTop::Loop(self.a_loop(&legs, &mut random)),
+            false => {
+                let (from, to) = legs.leg_at(random.f64());
+                let off = |reach: &f64| BUMP * reach * normal(&mut random);
+                OnTop::Bump {
+                    offsets: self.reach.iter().map(off).collect(),
+                    from,
+                    to,
+                }
+            }
+        };
+        perturbed(optimum, &on_top, &self.problem.limits.joint_position)
+    }
+
     /// The straight path with a loop of two joints on one of its legs.
     fn looped(&self, random: &mut fastrand::Rng) -> JointPath {
         let straight = JointPath::new(self.problem, &[]);
+        let mut on_top = self.a_loop(&straight, random);
+        for _ in 0..NARROWINGS {
+            if self.is_within_limits(&straight.clone().with_loop(on_top)) {
+                break;
+            }
+            on_top.radii = on_top.radii.map(|radius| NARROWED * radius);
+        }
+        straight.with_loop(on_top)
+    }
+
+    /// A loop on one of the legs of `path`, as wide as rates allow.
+    fn a_loop(&self, path: &JointPath, random: &mut fastrand::Rng) -> Loop {
         let [i, j] = self.plane(random).joints;
         let mut radius = |joint: usize| between(random, RADII) * self.reach[joint];
         let mut radii = [radius(i), radius(j)];
-        let (from, to) = straight.leg_at(random.f64());
+        let (from, to) = path.leg_at(random.f64());
         let lasts = self.problem.task.duration.upper * (to - from);
         for (radius, joint) in radii.iter_mut().zip([i, j]) {
             let fastest = self.problem.limits.joint_velocity[joint].upper;
             *radius = radius.min(SHARE * fastest * lasts / LOOP_RATE);
         }
-        let phase = random.f64() * TAU;
-        let turns = if random.bool() { 1.0 } else { -1.0 };
-        let mut path = straight.clone();
-        for _ in 0..NARROWINGS {
-            path = straight.clone().with_loop(Loop {
-                joints: [i, j],
-                radii,
-                phase,
-                turns,
-                from,
-                to,
-            });
-            if self.is_within_limits(&path) {
-                break;
-            }
-            radii = radii.map(|radius| NARROWED * radius);
+        Loop {
+            joints: [i, j],
+            radii,
+            phase: random.f64() * TAU,
+            turns: if random.bool() { 1.0 } else { -1.0 },
+            from,
+            to,
         }
-        path
     }
 
     /// A plane of two joints, those with large curvature more often.
@@ -192,15 +237,13 @@ impl<'a> Starts<'a> {
         let aside = |k: usize, random: &mut fastrand::Rng| -> Vec<f64> {
             let along = (k + 1) as f64 / (points * legs + 1) as f64;
             let size = between(random, DETOURS);
-            let direction: Vec<f64> = self.reach.iter().map(|_| normal(random)).collect();
-            let norm = direction.iter().map(|d| d * d).sum::<f64>().sqrt();
-            let joint = |j: usize| {
+            let mut joint = |j: usize| {
                 let (a, b) = (task.initial_joints[j], task.final_joints[j]);
                 let straight = a + along * (b - a);
-                let off = size * direction[j] / norm.max(f64::MIN_POSITIVE) * self.reach[j];
+                let off = size * normal(random) * self.reach[j];
                 self.problem.limits.joint_position[j].clamp(straight + off)
             };
-            (0..direction.len()).map(joint).collect()
+            (0..self.reach.len()).map(&mut joint).collect()
         };
         let detours: Vec<Vec<f64>> = (0..points * legs).map(|k| aside(k, random)).collect();
         JointPath::new(self.problem, &detours)

@@ -1,0 +1,128 @@
+//! The solve of one start on the first mesh.
+
+use super::optimum::{Ended, Optimum};
+use crate::collocation::Mesh;
+use crate::dynamics::space::Space;
+use crate::nlp::{self, Control, Deadline};
+use crate::ocp::Ocp;
+use crate::planner::{Method, Plan, PlanError, Planner, Start};
+use crate::problem::Problem;
+use crate::refine::{self, Refinement};
+use crate::system::{FreeFloating, StartKind, Starts, along, metrics, trajectory};
+use crate::transcription::{Discretization, Patterns};
+
+/// Iterations of one solve; fewer where the solver's limit is lower.
+const ITERATIONS: u32 = 400;
+/// Largest error (28) beyond which a solution is far from any motion.
+const GROSS: f64 = 1.0;
+
+/// What the solves of all starts share.
+pub(super) struct FirstMesh<'a, Sp: Space> {
+    problem: &'a Problem,
+    system: &'a FreeFloating<Sp>,
+    patterns: Patterns,
+    starts: Starts<'a>,
+    /// Trajectories that are no joint paths, tried after the straight path.
+    others: Vec<(StartKind, Discretization)>,
+    mesh: Mesh,
+}
+
+impl<'a, Sp: Space> FirstMesh<'a, Sp> {
+    pub fn new(
+        problem: &'a Problem,
+        system: &'a FreeFloating<Sp>,
+        given: Option<&Start>,
+        seed: u64,
+    ) -> Result<Self, PlanError> {
+        let fractions = system.formulation().way_point_fractions();
+        let given = given.map(|start| (StartKind::Given, start.trajectory.clone()));
+        let others = given.into_iter().chain(reaction_null_space(problem));
+        Ok(Self {
+            problem,
+            system,
+            patterns: Patterns::detect(system),
+            starts: Starts::new(problem, system, seed),
+            others: others.collect(),
+            mesh: problem.mesh.first_mesh()?.through(&fractions)?,
+        })
+    }
+
+    /// Start `index`; the first is the straight path.
+    fn start(&self, index: usize) -> (StartKind, Discretization) {
+        if let Some((kind, trajectory)) = index.checked_sub(1).and_then(|k| self.others.get(k)) {
+            return (*kind, trajectory.resample(self.mesh.clone()));
+        }
+        let (kind, path) = self.starts.path(index - self.others.len().min(index));
+        let duration = self.problem.task.duration.center();
+        (kind, along(self.system, duration, &path, self.mesh.clone()))
+    }
+
+    /// Where start `index` ends, one of `bests` perturbed where there are any; `None` where it is not
+    /// solved.
+    pub fn solve(
+        &self,
+        index: usize,
+        bests: &[Ended],
+        deadline: Deadline,
+        monitor: &mut dyn FnMut() -> Control,
+    ) -> Result<Option<Ended>, PlanError> {
+        let (kind, from) = match bests.get(index % bests.len().max(1)) {
+            Some(best) => {
+                let optimum = &best.start.trajectory;
+                (StartKind::Perturbed, self.starts.perturbed(optimum, index))
+            }
+            None => self.start(index),
+        };
+        let own = &self.problem.solver;
+        let refinement = Refinement {
+            ocp: self.system,
+            patterns: &self.patterns,
+            settings: &refine::Settings {
+                max_iterations: Some(1),
+                ..self.problem.mesh.clone()
+            },
+            solver: &nlp::Settings {
+                max_iterations: own.max_iterations.min(ITERATIONS),
+                warm_start: None,
+                time_limit: deadline.remaining(),
+                ..own.clone()
+            },
+        };
+        let start = Start {
+            trajectory: from,
+            iterate: None,
+        };
+        let outcome = refinement.run(&start, &mut |_| monitor())?;
+        if !outcome.status.is_solved() || !outcome.objective.is_finite() {
+            return Ok(None);
+        }
+        let reached = trajectory(self.system, &outcome.trajectory);
+        let found = metrics(self.system, &outcome.trajectory, &reached);
+        let error = outcome.max_error();
+        Ok(Some(Ended {
+            optimum: Optimum {
+                objective: outcome.objective,
+                max_base_attitude: found.max_base_attitude,
+                final_base_attitude: found.final_base_attitude,
+                hits: 1,
+                start: index,
+                kind,
+                status: None,
+            },
+            gross: error.is_nan() || error >= GROSS,
+            start: Start {
+                trajectory: outcome.trajectory,
+                iterate: Some(outcome.iterate),
+            },
+        }))
+    }
+}
+
+/// The path through the reaction null space, where the arm has one and the task is one for it.
+fn reaction_null_space(problem: &Problem) -> Option<(StartKind, Discretization)> {
+    let method = Method::ReactionNullSpace;
+    let planned = Planner::new().plan_by(method, problem, None, &mut |_| Control::Continue);
+    let usable = |plan: &Plan| plan.discretization.x.iter().all(|x| x.is_finite());
+    let plan = planned.ok().filter(usable)?;
+    Some((StartKind::ReactionNullSpace, plan.discretization))
+}

@@ -1,0 +1,303 @@
+//! One task from many starts: the best optimum that is found.
+//!
+//! Every start is solved on the first mesh, where J ranks them as it does on finer ones; the best
+//! few and the one that a plan begins with are refined. Half of the starts are paths unlike each
+//! other, the rest the best optima until then with a detour or a loop on top (monotonic basin
+//! hopping, D. J. Wales, J. P. K. Doye, doi:10.1021/jp970984n). Starts and their order follow from the
+//! seed, each start has random numbers of its own, and each solve runs on one thread: the result is
+//! the same whatever the number of threads.
+//!
+//! No number of starts proves that there is nothing better.
+//!
+//! | file | does |
+//! | --- | --- |
+//! | `first_mesh` | the solve of one start |
+//! | `optimum` | what several starts ended at, counted once |
+//! | `teller` | one monitor for work on several threads |
+
+mod first_mesh;
+mod optimum;
+mod teller;
+
+pub use optimum::Optimum;
+
+use crate::nlp::{Control, Deadline};
+use crate::parallel;
+use crate::planner::{Event, Plan, PlanError, Planner, Start, Status};
+use crate::problem::Problem;
+use crate::system::{StartKind, System, with_system};
+use first_mesh::FirstMesh;
+use optimum::{Ended, distinct, same};
+use std::num::NonZero;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+use teller::Teller;
+
+/// Starts, where nobody says how many.
+pub const STARTS: usize = 32;
+/// Part of the time limit after which no further start is begun.
+const SEARCHING: f64 = 0.6;
+/// How many of the best are refined.
+const REFINED: usize = 3;
+/// How many of the best are perturbed.
+const PERTURBED: usize = 3;
+
+/// A search over seeded starts.
+#[derive(Debug, Clone)]
+pub struct Search {
+    /// How many starts; the first is the straight path.
+    pub starts: usize,
+    /// What the random numbers begin with.
+    pub seed: u64,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self {
+            starts: STARTS,
+            seed: 1,
+        }
+    }
+}
+
+/// A step of a search, for a progress line; the monitor's answer can stop it.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub enum SearchEvent<'a> {
+    /// A start was solved on the first mesh, or was not.
+    Tried {
+        /// How many were tried so far.
+        tried: usize,
+        /// Number of starts.
+        of: usize,
+        /// The least J until then, infinite where none was solved.
+        best: f64,
+    },
+    /// A step of the refinement of one of the best.
+    Refining {
+        /// Which of them, counted from 1.
+        candidate: usize,
+        /// How many there are.
+        of: usize,
+        /// The step.
+        event: Event<'a>,
+    },
+}
+
+/// What the starts of a search ended at.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct Optima {
+    /// Distinct ones, the best first: those that were refined, then others on the first mesh.
+    pub found: Vec<Optimum>,
+    /// Starts that were tried.
+    pub tried: usize,
+    /// Those of them that were solved on the first mesh.
+    pub solved: usize,
+    /// What the random numbers began with.
+    pub seed: u64,
+}
+
+/// What a search came to.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Searched {
+    /// The best plan.
+    pub plan: Plan,
+    /// All that was found.
+    pub optima: Optima,
+}
+
+/// One of the best with its refined plan.
+struct Refined {
+    ended: Ended,
+    plan: Plan,
+}
+
+impl Search {
+    /// Searches for the best plan of `problem`, from `given` as well where there is one, telling
+    /// `monitor` of every step.
+    ///
+    /// The solver's time limit is one for all of it. Where nothing that starts ended at can be refined,
+    /// the problem is planned from the straight path, with a diagnosis where that fails.
+    ///
+    /// # Errors
+    /// [`PlanError`] as of [`Planner::plan_with`].
+    pub fn run(
+        &self,
+        problem: &Problem,
+        given: Option<&Start>,
+        monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
+    ) -> Result<Searched, PlanError> {
+        let began = Instant::now();
+        let deadline = Deadline::after(problem.solver.time_limit);
+        let teller = Teller::new(monitor);
+        let mut optima = Optima {
+            seed: self.seed,
+            ..Optima::default()
+        };
+        let ended = self.try_starts(problem, given, &mut optima, &teller)?;
+        let (best, rest) = chosen(ended);
+        let mut refined = refine(problem, best, deadline, &teller)?;
+        refined.sort_by(|a, b| {
+            let unsolved = |one: &Refined| one.plan.status != Status::Solved;
+            let costs = a.plan.objective.total_cmp(&b.plan.objective);
+            unsolved(a).cmp(&unsolved(b)).then(costs)
+        });
+        for one in &refined {
+            list(&mut optima.found, one);
+        }
+        optima
+            .found
+            .extend(rest.into_iter().map(|ended| ended.optimum));
+        let best = refined.into_iter().next().map(|one| one.plan);
+        let kept = |plan: &Plan| plan.status == Status::Solved || teller.has_stopped();
+        let mut plan = match best.filter(kept) {
+            Some(plan) => plan,
+            None => {
+                let problem = within(problem, deadline)?;
+                let (candidate, of) = (1, 1);
+                Planner::new().plan_with(&problem, given, &mut |&event| {
+                    teller.tell(&SearchEvent::Refining {
+                        candidate,
+                        of,
+                        event,
+                    })
+                })?
+            }
+        };
+        plan.timing.total = began.elapsed();
+        Ok(Searched { plan, optima })
+    }
+
+    /// Distinct optima on the first mesh, the best first.
+    fn try_starts(
+        &self,
+        problem: &Problem,
+        given: Option<&Start>,
+        optima: &mut Optima,
+        teller: &Teller<'_>,
+    ) -> Result<Vec<Ended>, PlanError> {
+        let limit = problem.solver.time_limit;
+        let deadline = Deadline::after(limit.map(|limit| limit.mul_f64(SEARCHING)));
+        let tried = AtomicUsize::new(0);
+        let least = Mutex::new(f64::INFINITY);
+        let report = |ended: &Option<Ended>| {
+            let mut least = least.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(ended) = ended {
+                *least = least.min(ended.optimum.objective);
+            }
+            teller.tell(&SearchEvent::Tried {
+                tried: tried.fetch_add(1, Ordering::Relaxed) + 1,
+                of: self.starts,
+                best: *least,
+            });
+        };
+        let mut found = Vec::new();
+        with_system!(&System::new(problem), system => {
+            let first_mesh = FirstMesh::new(problem, system, given, self.seed)?;
+            for round in self.rounds() {
+                let bests: Vec<Ended> = match round.start {
+                    0 => Vec::new(),
+                    _ => found.iter().take(PERTURBED).cloned().collect(),
+                };
+                let one = |k: usize| -> Result<Option<Ended>, PlanError> {
+                    if teller.has_stopped() || deadline.has_passed() {
+                        return Ok(None);
+                    }
+                    let solve = || {
+                        let mut answer = || teller.answer();
+                        first_mesh.solve(round.start + k, &bests, deadline, &mut answer)
+                    };
+                    let ended = parallel::with_threads(NonZero::<usize>::MIN, solve)?;
+                    report(&ended);
+                    Ok(ended)
+                };
+                let ended = parallel::map(round.len(), &one);
+                let ended: Vec<Ended> = ended
+                    .into_iter()
+                    .filter_map(Result::transpose)
+                    .collect::<Result<_, _>>()?;
+                optima.solved += ended.len();
+                found = distinct(found, ended);
+            }
+        });
+        optima.tried = tried.into_inner();
+        Ok(found)
+    }
+
+    /// The starts from nothing, then those that perturb the best until then, in two rounds.
+    fn rounds(&self) -> [Range<usize>; 3] {
+        let all = self.starts.max(1);
+        let (fresh, second) = (all.div_ceil(2), (3 * all).div_ceil(4));
+        [0..fresh, fresh..second, second..all]
+    }
+}
+
+/// The best few and what a plan without a search would begin with, so that a search is never worse; and
+/// the others.
+fn chosen(ended: Vec<Ended>) -> (Vec<Ended>, Vec<Ended>) {
+    let mut rank = 0;
+    ended.into_iter().partition(|one| {
+        rank += 1;
+        let default = one.optimum.start == 0 || one.optimum.kind == StartKind::Given;
+        rank <= REFINED || default
+    })
+}
+
+/// Refines each of `best`, several at a time.
+fn refine(
+    problem: &Problem,
+    best: Vec<Ended>,
+    deadline: Deadline,
+    teller: &Teller<'_>,
+) -> Result<Vec<Refined>, PlanError> {
+    let of = best.len();
+    let one = |index: usize| -> Result<Plan, PlanError> {
+        let problem = within(problem, deadline)?;
+        let mut planner = Planner::new().without_diagnosis();
+        let candidate = index + 1;
+        let mut monitor = |&event: &Event<'_>| {
+            teller.tell(&SearchEvent::Refining {
+                candidate,
+                of,
+                event,
+            })
+        };
+        parallel::with_threads(NonZero::<usize>::MIN, || {
+            planner.plan_with(&problem, Some(&best[index].start), &mut monitor)
+        })
+    };
+    let plans = parallel::map(of, &one);
+    let pairs = best.iter().cloned().zip(plans);
+    pairs
+        .map(|(ended, plan)| plan.map(|plan| Refined { ended, plan }))
+        .collect()
+}
+
+/// `problem` with the time that is left.
+fn within(problem: &Problem, deadline: Deadline) -> Result<Problem, PlanError> {
+    let edited = problem.edited(|problem| problem.solver.time_limit = deadline.remaining());
+    edited.map_err(PlanError::from)
+}
+
+/// Adds what `refined` came to, or counts it to what is the same.
+fn list(found: &mut Vec<Optimum>, refined: &Refined) {
+    let plan = &refined.plan;
+    let optimum = Optimum {
+        objective: plan.objective,
+        max_base_attitude: plan.metrics.max_base_attitude,
+        final_base_attitude: plan.metrics.final_base_attitude,
+        status: Some(plan.status),
+        ..refined.ended.optimum.clone()
+    };
+    let known = found
+        .iter_mut()
+        .find(|known| known.status == optimum.status && same(known, &optimum));
+    match known {
+        Some(known) => known.hits += optimum.hits,
+        None => found.push(optimum),
+    }
+}
