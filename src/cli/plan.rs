@@ -109,6 +109,11 @@ impl Arguments {
 /// Plans, writes, prints.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let file = ProblemFile::load(&arguments.problem, &arguments.overrides()?)?;
+    let of_file = Method::Collocation(file.problem.mesh.method);
+    let method = arguments
+        .method
+        .map_or(of_file, |MethodName(method)| method);
+    let search = arguments.search.of(method)?;
     let warm_start = arguments.warm_start.as_deref();
     let start = warm_start
         .map(|path| solution::read_warm_start(path, &file))
@@ -126,11 +131,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 
     interrupt::listen();
     let mut progress = Progress::start(&file.problem.name, arguments.quiet);
-    let of_file = Method::Collocation(file.problem.mesh.method);
-    let method = arguments
-        .method
-        .map_or(of_file, |MethodName(method)| method);
-    let planned = match arguments.search.of(method)? {
+    let planned = match search {
         Some((search, method)) => searched(
             &search,
             method,

@@ -1,6 +1,6 @@
 //! The distinct optima of a search, for the terminal.
 
-use super::format::{cost, degrees};
+use super::format::{cost, degrees, seconds};
 use crate::study::search::{Optima, Optimum};
 use comfy_table::{CellAlignment, Table, presets};
 
@@ -56,15 +56,17 @@ pub(super) fn headline(optima: &Optima) -> String {
         tried,
         solved,
         seed,
+        time,
     } = optima;
     let several = |count: usize, what: &str, plural: &str| match count {
         1 => format!("1 {what}"),
         _ => format!("{count} {plural}"),
     };
     format!(
-        "search: {}, {solved} solved, {}, seed {seed}; others may exist",
+        "search: {}, {solved} solved, {}, seed {seed}, {}; others may exist",
         several(*tried, "start", "starts"),
         several(found.len(), "distinct optimum", "distinct optima"),
+        seconds(*time),
     )
 }
 

@@ -170,3 +170,43 @@ fn pareto_trades_base_motion_for_joint_effort() {
     assert_eq!(run.code, 2);
     assert_eq!(run.stderr, "--from 2 is not below --to 1\n");
 }
+
+#[test]
+fn a_search_lists_what_it_found() {
+    let folder = Folder::new(PROBLEM);
+    let run = folder.run(&["plan", "case.toml", "--search", "4", "--seed", "7"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    assert!(
+        run.stdout.contains("search: 4 starts, ") && run.stdout.contains("others may exist"),
+        "{}",
+        run.stdout
+    );
+    let solution: Value = serde_json::from_str(&folder.read("out/case/solution.json")).unwrap();
+    let search = &solution["search"];
+    assert_eq!((&search["tried"], &search["seed"]), (&4.into(), &7.into()));
+    assert_eq!(search["optima"][0]["status"], "solved");
+    assert_eq!(search["optima"][0]["objective"], solution["objective"]);
+    assert!(folder.read("out/case/report.html").contains("Other optima"));
+    // Without a search there is none.
+    folder.run(&["plan", "case.toml"]);
+    let solution: Value = serde_json::from_str(&folder.read("out/case/solution.json")).unwrap();
+    assert!(solution["search"].is_null());
+}
+
+#[test]
+fn a_search_that_cannot_be_is_refused() {
+    let folder = Folder::new(PROBLEM);
+    for (arguments, said) in [
+        (&["--search", "0"][..], "expected a number of starts"),
+        (&["--seed", "2"], "--search"),
+        (
+            &["--search", "--method", "matpm"],
+            "--search with --method matpm",
+        ),
+    ] {
+        let run = folder.run(&[&["plan", "case.toml"], arguments].concat());
+        assert_eq!(run.code, 2, "{run:?}");
+        assert!(run.stderr.contains(said), "{}", run.stderr);
+        assert!(!folder.path().join("out").exists(), "{arguments:?}");
+    }
+}

@@ -5,13 +5,13 @@ mod charts;
 mod scene;
 mod texts;
 
-use super::format::{cost, time};
+use super::format::{cost, degrees, time};
 use crate::collocation::Mesh;
 use crate::ocp::Interval;
 use crate::planner::{Method, Status};
 use crate::printable::printable;
 use crate::problem::Problem;
-use crate::solution::{Build, Solution};
+use crate::solution::{Build, Search, Solution};
 use crate::system::{Trajectory, resampled, straight_motion};
 use crate::transcription::Discretization;
 use charts::Panel;
@@ -22,6 +22,8 @@ use texts::Fact;
 const STYLE: &str = include_str!("page.css");
 const PLAYBACK: &str = include_str!("playback.js");
 
+/// Optima shown of a search; the file has all of them.
+const OPTIMA: usize = 12;
 /// Times of the playback, less one.
 const FRAMES: usize = 120;
 
@@ -78,6 +80,9 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
                 section { h2 { "Over time" } div.charts { @for panel in &panels { (chart(panel)) } } }
                 @if !solution.iterations.is_empty() {
                     section { h2 { "Mesh by mesh" } (history(solution)) }
+                }
+                @if let Some(search) = &solution.search {
+                    section { h2 { "Other optima" } (optima(search)) }
                 }
                 section { h2 { "Where it comes from" } (provenance(solution)) }
                 script { (PreEscaped(PLAYBACK)) }
@@ -199,6 +204,39 @@ fn history(solution: &Solution) -> Markup {
                     td { (time(record.seconds)) }
                 }
             }
+        }
+    }
+}
+
+/// One row for each of the optima that a search found.
+fn optima(search: &Search) -> Markup {
+    html! {
+        p {
+            (search.solved) " of " (search.tried) " starts were solved (seed " (search.seed)
+            "); there may be optima that none of them led to."
+        }
+        table.history {
+            thead {
+                tr {
+                    @for head in ["", "cost J", "largest base angle", "final", "hits", "first start", ""] {
+                        th scope="col" { (head) }
+                    }
+                }
+            }
+            @for (k, one) in search.optima.iter().take(OPTIMA).enumerate() {
+                tr {
+                    td { (k + 1) }
+                    td { (cost(one.objective)) }
+                    td { (degrees(one.max_base_attitude)) }
+                    td { (degrees(one.final_base_attitude)) }
+                    td { (one.hits) }
+                    td { (one.kind) }
+                    td { (one.status.map_or("first mesh", Status::words)) }
+                }
+            }
+        }
+        @if search.optima.len() > OPTIMA {
+            p { "And " (search.optima.len() - OPTIMA) " more on the first mesh." }
         }
     }
 }

@@ -32,7 +32,7 @@ use std::num::NonZero;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use teller::Teller;
 
 /// Starts, where nobody says how many.
@@ -98,6 +98,8 @@ pub struct Optima {
     pub solved: usize,
     /// What the random numbers began with.
     pub seed: u64,
+    /// How long the whole search took.
+    pub time: Duration,
 }
 
 /// What a search came to.
@@ -154,7 +156,7 @@ impl Search {
             .extend(rest.into_iter().map(|ended| ended.optimum));
         let best = refined.into_iter().next().map(|one| one.plan);
         let kept = |plan: &Plan| plan.status == Status::Solved || teller.has_stopped();
-        let mut plan = match best.filter(kept) {
+        let plan = match best.filter(kept) {
             Some(plan) => plan,
             None => {
                 let problem = within(problem, deadline)?;
@@ -168,7 +170,7 @@ impl Search {
                 })?
             }
         };
-        plan.timing.total = began.elapsed();
+        optima.time = began.elapsed();
         Ok(Searched { plan, optima })
     }
 

@@ -90,7 +90,7 @@ const DETOURS: Interval = Interval {
     upper: 4.8,
 };
 /// Standard deviation of a detour on top of an optimum, as a part of [`Starts::reach`].
-const BUMP: f64 = 1.2;
+const BUMP: f64 = 3.0;
 /// Radius that a joint without limits may go, rad.
 const RADIAN: f64 = 1.0;
 /// The least a sliding joint is taken to reach, m.

@@ -1,0 +1,105 @@
+//! A search over many starts: never worse than one start, the same for any number of threads.
+
+mod problems;
+
+use ffsm_ipopt::nlp::Control;
+use ffsm_ipopt::parallel::with_threads;
+use ffsm_ipopt::planner::{Status, plan};
+use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::study::search::{Search, SearchEvent, Searched};
+use std::num::NonZero;
+use std::time::Duration;
+
+fn search(problem: &Problem, starts: usize, seed: u64) -> Searched {
+    let search = Search { starts, seed };
+    search
+        .run(problem, None, &mut |_| Control::Continue)
+        .unwrap()
+}
+
+#[test]
+fn a_search_is_never_worse_than_one_start() {
+    let problem = problems::relaxed();
+    let one = plan(&problem).unwrap();
+    let many = search(&problem, 6, 1);
+    assert_eq!(many.plan.status, Status::Solved);
+    assert!(many.plan.objective <= one.objective * (1.0 + 1e-7));
+    let optima = &many.optima;
+    assert_eq!((optima.tried, optima.seed), (6, 1));
+    let hits: usize = optima.found.iter().map(|one| one.hits).sum();
+    assert_eq!(hits, optima.solved);
+    assert_eq!(optima.found[0].objective, many.plan.objective);
+    assert_eq!(optima.found[0].status, Some(Status::Solved));
+}
+
+#[test]
+fn the_result_is_the_same_on_one_thread_and_on_two() {
+    let problem = problems::relaxed();
+    let on = |threads: usize| {
+        let threads = NonZero::new(threads).unwrap();
+        let found = with_threads(threads, || search(&problem, 5, 3));
+        let optima: Vec<(u64, usize, usize)> = found
+            .optima
+            .found
+            .iter()
+            .map(|one| (one.objective.to_bits(), one.hits, one.start))
+            .collect();
+        let states: Vec<u64> = found
+            .plan
+            .discretization
+            .x
+            .iter()
+            .map(|x| x.to_bits())
+            .collect();
+        (optima, states)
+    };
+    assert_eq!(on(1), on(2));
+}
+
+#[test]
+fn what_no_start_solves_is_diagnosed() {
+    // A radian in half a second at 0.9 rad/s.
+    let problem = problems::relaxed()
+        .edited(|problem| problem.task.duration = ffsm_ipopt::ocp::Interval::fixed(0.5))
+        .unwrap();
+    let found = search(&problem, 3, 1);
+    assert_eq!((found.optima.tried, found.optima.solved), (3, 0));
+    assert!(found.optima.found.is_empty());
+    assert_eq!(found.plan.status, Status::Infeasible);
+    assert!(found.plan.diagnosis.is_some());
+}
+
+#[test]
+fn a_search_that_is_stopped_keeps_the_best_so_far() {
+    let problem = problems::relaxed();
+    let mut tried = 0;
+    let found = Search { starts: 8, seed: 1 }
+        .run(&problem, None, &mut |event| {
+            if let SearchEvent::Tried { .. } = event {
+                tried += 1;
+            }
+            match tried >= 2 {
+                true => Control::Stop,
+                false => Control::Continue,
+            }
+        })
+        .unwrap();
+    assert_eq!(found.plan.status, Status::Interrupted);
+    assert!(found.optima.tried < 8);
+    // On the first mesh, whose J is right to a millionth.
+    assert!(
+        (found.plan.objective - 0.434_243).abs() < 1e-3,
+        "{}",
+        found.plan.objective
+    );
+}
+
+#[test]
+fn a_time_limit_is_kept_and_leaves_time_to_refine() {
+    let problem = problems::relaxed()
+        .edited(|problem| problem.solver.time_limit = Some(Duration::from_secs(5)))
+        .unwrap();
+    let found = search(&problem, 1_000_000, 1);
+    assert!(found.optima.tried < 1_000_000);
+    assert_eq!(found.plan.status, Status::Solved);
+}
