@@ -12,6 +12,9 @@ pub struct Cost {
     pub final_base_attitude: Vec<f64>,
     /// ‖ζ(t_f) − ζ(t₀)‖², one weight a length.
     pub final_base_position: Vec<f64>,
+    /// ∫‖η‖² dt, one weight an angle; by quaternion or modified Rodrigues parameters one weight, of
+    /// ∫φ² dt of the rotation angle.
+    pub base_attitude: Vec<f64>,
     /// ∫‖ζ − ζ(t₀)‖² dt, one weight a length.
     pub base_position: Vec<f64>,
     /// ∫‖η̇‖² dt, one weight an angle; by quaternion or modified Rodrigues parameters ∫‖ω‖² dt, one
@@ -37,6 +40,8 @@ pub enum CostId {
     FinalBaseAttitude,
     /// ‖ζ(t_f) − ζ(t₀)‖².
     FinalBasePosition,
+    /// ∫‖η‖² dt.
+    BaseAttitude,
     /// ∫‖ζ − ζ(t₀)‖² dt.
     BasePosition,
     /// ∫‖η̇‖² dt.
@@ -59,6 +64,7 @@ impl CostId {
         match self {
             Self::FinalBaseAttitude => "cost.final_base_attitude",
             Self::FinalBasePosition => "cost.final_base_position",
+            Self::BaseAttitude => "cost.base_attitude",
             Self::BasePosition => "cost.base_position",
             Self::BaseRate => "cost.base_rate",
             Self::JointRate => "cost.joint_rate",
@@ -76,6 +82,8 @@ impl CostId {
             Self::FinalBaseAttitude if rotation => "φ(t_f)²",
             Self::FinalBaseAttitude => "‖η(t_f)‖²",
             Self::FinalBasePosition => "‖Δζ(t_f)‖²",
+            Self::BaseAttitude if rotation => "∫φ²",
+            Self::BaseAttitude => "∫‖η‖²",
             Self::BasePosition => "∫‖Δζ‖²",
             Self::BaseRate if rotation => "∫‖ω‖²",
             Self::BaseRate => "∫‖η̇‖²",
@@ -116,6 +124,7 @@ macro_rules! table {
         [
             CostEntry { id: Id::FinalBaseAttitude, components: BaseAttitude, weights: $($borrow)+ $cost.final_base_attitude },
             CostEntry { id: Id::FinalBasePosition, components: BasePosition, weights: $($borrow)+ $cost.final_base_position },
+            CostEntry { id: Id::BaseAttitude, components: BaseAttitude, weights: $($borrow)+ $cost.base_attitude },
             CostEntry { id: Id::BasePosition, components: BasePosition, weights: $($borrow)+ $cost.base_position },
             CostEntry { id: Id::BaseRate, components: BaseRate, weights: $($borrow)+ $cost.base_rate },
             CostEntry { id: Id::JointRate, components: Joint, weights: $($borrow)+ $cost.joint_rate },
@@ -133,6 +142,7 @@ impl Cost {
         Self {
             final_base_attitude: vec![0.0; angles],
             final_base_position: vec![0.0; lengths],
+            base_attitude: vec![0.0; angles],
             base_position: vec![0.0; lengths],
             base_rate: vec![0.0; angles],
             joint_rate: vec![0.0; n],

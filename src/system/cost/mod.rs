@@ -4,6 +4,7 @@
 //! [`EndTerm`]. [`PathCost`] and [`EndCost`] list the kinds, [`path`] and [`end`] make those that a
 //! problem has weights for. The cost, its derivatives and its breakdown follow from these lists.
 
+mod base_attitude;
 mod base_position;
 mod breakdown;
 mod control;
@@ -25,6 +26,7 @@ use super::plant::Plant;
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Space;
 use crate::problem::{CostId, Problem};
+use base_attitude::BaseAttitudeTerm;
 use base_position::BasePositionTerm;
 use control::ControlTerm;
 use rates::RateTerm;
@@ -34,6 +36,7 @@ use torque::TorqueTerm;
 /// The kinds of terms of the path.
 #[derive(Debug, Clone)]
 pub(crate) enum PathCost {
+    BaseAttitude(BaseAttitudeTerm),
     BasePosition(BasePositionTerm),
     Rates(RateTerm),
     Control(ControlTerm),
@@ -43,6 +46,7 @@ pub(crate) enum PathCost {
 macro_rules! each_path {
     ($cost:expr, $term:ident => $do:expr) => {
         match $cost {
+            PathCost::BaseAttitude($term) => $do,
             PathCost::BasePosition($term) => $do,
             PathCost::Rates($term) => $do,
             PathCost::Control($term) => $do,
@@ -52,11 +56,12 @@ macro_rules! each_path {
 }
 
 /// The terms of the path that `problem` has weights for.
-pub(crate) fn path<Sp: Space>(problem: &Problem) -> Vec<PathCost> {
+pub(crate) fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<PathCost> {
     let mut terms = Vec::new();
     terms.extend(RateTerm::squares(problem).map(PathCost::Rates));
     terms.extend(ControlTerm::new(problem).map(PathCost::Control));
     terms.extend(TorqueTerm::new(problem).map(PathCost::Torque));
+    terms.extend(BaseAttitudeTerm::new(problem, plant).map(PathCost::BaseAttitude));
     terms.extend(BasePositionTerm::new(problem).map(PathCost::BasePosition));
     terms.extend(RateTerm::matrix(problem, Sp::ANGLES).map(PathCost::Rates));
     terms
