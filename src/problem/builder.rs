@@ -104,6 +104,7 @@ impl ProblemBuilder {
             ComponentKind::BaseAttitude => self.attitude_sizes().1,
             ComponentKind::BaseRate => angles,
             ComponentKind::BasePosition => lengths,
+            ComponentKind::Base => 1,
         }
     }
 }

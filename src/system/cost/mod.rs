@@ -9,6 +9,7 @@ mod base_position;
 mod breakdown;
 mod control;
 mod effort;
+mod peak;
 mod rates;
 mod term;
 mod terminal;
@@ -29,6 +30,7 @@ use crate::problem::{CostId, Problem};
 use base_attitude::BaseAttitudeTerm;
 use base_position::BasePositionTerm;
 use control::ControlTerm;
+use peak::PeakTerm;
 use rates::RateTerm;
 use terminal::{DurationTerm, FinalAttitudeTerm, FinalPositionTerm};
 use torque::TorqueTerm;
@@ -73,6 +75,7 @@ pub(crate) enum EndCost {
     Attitude(FinalAttitudeTerm),
     Position(FinalPositionTerm),
     Duration(DurationTerm),
+    Peak(PeakTerm),
 }
 
 macro_rules! each_end {
@@ -81,6 +84,7 @@ macro_rules! each_end {
             EndCost::Attitude($term) => $do,
             EndCost::Position($term) => $do,
             EndCost::Duration($term) => $do,
+            EndCost::Peak($term) => $do,
         }
     };
 }
@@ -91,6 +95,7 @@ pub(crate) fn end<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<EndCos
     terms.extend(FinalAttitudeTerm::new(problem, plant).map(EndCost::Attitude));
     terms.extend(DurationTerm::new(problem).map(EndCost::Duration));
     terms.extend(FinalPositionTerm::new(problem).map(EndCost::Position));
+    terms.extend(PeakTerm::all(problem).map(EndCost::Peak));
     terms
 }
 
