@@ -100,6 +100,12 @@ fn a_saved_motion_is_a_start_with_or_without_peaks() {
 }
 
 #[test]
+fn no_place_is_forbidden_by_a_peak() {
+    let found = ffsm_ipopt::system::impossible(&peaked());
+    assert!(found.is_empty(), "{found:?}");
+}
+
+#[test]
 fn a_plan_without_parameters_has_peaks_in_its_cost() {
     let problem = peaked();
     let plan = Planner::new().plan_by(Method::Matpm, &problem, None, &mut |_| Control::Continue);
