@@ -56,6 +56,18 @@ fn the_result_is_the_same_on_one_thread_and_on_two() {
     assert_eq!(on(1), on(2));
 }
 
+/// The peak is a static parameter, which no start brings along.
+#[test]
+fn peaks_are_searched_for_as_well() {
+    let problem = problems::relaxed()
+        .edited(|problem| problem.cost.peak_base_attitude = vec![1.0])
+        .unwrap();
+    let one = plan(&problem).unwrap();
+    let many = search(&problem, 4, 1);
+    assert_eq!(many.plan.status, Status::Solved);
+    assert!(many.plan.objective <= one.objective * (1.0 + 1e-6));
+}
+
 #[test]
 fn what_no_start_solves_is_diagnosed() {
     // A radian in half a second at 0.9 rad/s.

@@ -262,6 +262,7 @@ fn component_names(problem: &Problem, kind: ComponentKind) -> Vec<String> {
         ComponentKind::BaseAttitude | ComponentKind::BaseRate => &["roll", "pitch", "yaw"],
         ComponentKind::BasePosition if planar => &["x", "y"],
         ComponentKind::BasePosition => &["x", "y", "z"],
+        ComponentKind::Base => &["base"],
     };
     names.iter().map(|name| name.to_string()).collect()
 }

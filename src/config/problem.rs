@@ -197,12 +197,13 @@ fn read(
         },
         base_rate: if rotation { Components::axes() } else { angles },
         base_position: lengths,
+        base: Components::base(),
     };
     if let Some(item) = root.get("limits") {
         tables::limits(item, &mut problem.limits, &robot, &components)?;
     }
     if let Some(item) = root.get("cost") {
-        tables::cost(item, &mut problem.cost, &components)?;
+        tables::cost(item, &mut problem, &components)?;
     }
     if let Some(item) = root.get("mesh") {
         tables::mesh(item, &mut problem.mesh)?;

@@ -12,8 +12,11 @@ use super::way_point;
 use crate::nlp::ipopt::{reach_of_option, reach_of_solver};
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
-use crate::problem::{ComponentKind, Cost, CostId, LimitId, Limits, Momentum, Task};
+use crate::problem::{
+    ComponentKind, CostId, LimitId, Limits, Momentum, Preset, ProblemBuilder, Task,
+};
 use crate::refine::{self, ErrorMeasure, Method};
+use crate::system;
 use std::time::Duration;
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish. How many
@@ -113,6 +116,7 @@ pub(super) struct EveryComponent {
     pub base_attitude: Components,
     pub base_rate: Components,
     pub base_position: Components,
+    pub base: Components,
 }
 
 impl EveryComponent {
@@ -122,6 +126,7 @@ impl EveryComponent {
             ComponentKind::BaseAttitude => &self.base_attitude,
             ComponentKind::BaseRate => &self.base_rate,
             ComponentKind::BasePosition => &self.base_position,
+            ComponentKind::Base => &self.base,
         }
     }
 }
@@ -154,13 +159,21 @@ pub(super) fn limits(
 /// `[cost]`.
 pub(super) fn cost(
     item: &Item<'_>,
-    cost: &mut Cost,
+    problem: &mut ProblemBuilder,
     components: &EveryComponent,
 ) -> Result<(), ConfigError> {
-    let known = cost.entries().map(|entry| entry.id);
+    let known = problem.cost.entries().map(|entry| entry.id);
     let others = [CostId::Duration, CostId::RateMatrix];
-    let known: Vec<_> = known.chain(others).map(CostId::name).collect();
-    let section = item.section(&known)?;
+    let known = known.chain(others).map(CostId::name);
+    let section = item.section(&known.chain([PRESET]).collect::<Vec<_>>())?;
+    if let Some(item) = section.get(PRESET) {
+        let preset = preset(item)?;
+        // A problem that cannot be is refused once all of it is read.
+        if let Ok(valid) = problem.clone().build() {
+            preset.weigh(&system::sizes(&valid), &mut problem.cost);
+        }
+    }
+    let cost = &mut problem.cost;
     for entry in cost.entries_mut() {
         if let Some(item) = section.get(entry.id.name()) {
             *entry.weights = components.of(entry.components).weights(item)?;
@@ -173,6 +186,15 @@ pub(super) fn cost(
         cost.rate_matrix = Some(matrix(item)?);
     }
     Ok(())
+}
+
+const PRESET: &str = "preset";
+
+fn preset(item: &Item<'_>) -> Result<Preset, ConfigError> {
+    let expected = Preset::ALL.map(|preset| quoted(preset.name())).join(" or ");
+    let name = item.text(&expected)?;
+    let found = Preset::ALL.into_iter().find(|preset| preset.name() == name);
+    found.ok_or_else(|| item.error(quoted(name), &expected))
 }
 
 /// Rows of numbers; the problem itself checks their lengths.

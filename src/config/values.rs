@@ -63,6 +63,15 @@ impl Components {
         }
     }
 
+    /// The base as a whole.
+    pub(super) fn base() -> Self {
+        Self {
+            what: "base",
+            names: vec!["base".into()],
+            single: Some("one number, for the base as a whole"),
+        }
+    }
+
     fn len(&self) -> usize {
         self.names.len()
     }

@@ -67,6 +67,7 @@ impl ProblemBuilder {
         self.limits.final_base_attitude = vec![Interval::FREE; angles];
         self.limits.base_rate = vec![Interval::FREE; rates];
         self.cost.final_base_attitude = vec![0.0; angles];
+        self.cost.base_attitude = vec![0.0; angles];
         self.cost.base_rate = vec![0.0; rates];
     }
 
@@ -103,6 +104,7 @@ impl ProblemBuilder {
             ComponentKind::BaseAttitude => self.attitude_sizes().1,
             ComponentKind::BaseRate => angles,
             ComponentKind::BasePosition => lengths,
+            ComponentKind::Base => 1,
         }
     }
 }

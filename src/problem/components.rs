@@ -15,6 +15,8 @@ pub enum ComponentKind {
     BaseRate,
     /// A coordinate of the base position.
     BasePosition,
+    /// The base as a whole: one.
+    Base,
 }
 
 impl ComponentKind {

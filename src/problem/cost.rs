@@ -12,6 +12,9 @@ pub struct Cost {
     pub final_base_attitude: Vec<f64>,
     /// ‖ζ(t_f) − ζ(t₀)‖², one weight a length.
     pub final_base_position: Vec<f64>,
+    /// ∫‖η‖² dt, one weight an angle; by quaternion or modified Rodrigues parameters one weight, of
+    /// ∫φ² dt of the rotation angle.
+    pub base_attitude: Vec<f64>,
     /// ∫‖ζ − ζ(t₀)‖² dt, one weight a length.
     pub base_position: Vec<f64>,
     /// ∫‖η̇‖² dt, one weight an angle; by quaternion or modified Rodrigues parameters ∫‖ω‖² dt, one
@@ -23,6 +26,13 @@ pub struct Cost {
     pub control: Vec<f64>,
     /// ∫‖τ‖² dt, one weight a joint.
     pub torque: Vec<f64>,
+    /// The largest base angle along the path, rad: of the rotation out of the axes that the attitude is
+    /// counted from; one weight.
+    pub peak_base_attitude: Vec<f64>,
+    /// The largest distance of the base from where it was at t₀, m; one weight.
+    pub peak_base_position: Vec<f64>,
+    /// The largest ‖η̇‖, by quaternion or modified Rodrigues parameters ‖ω‖, rad/s; one weight.
+    pub peak_base_rate: Vec<f64>,
     /// The duration t_f itself, where it is free; 1/s.
     pub duration: f64,
     /// Λ of (14) as a full matrix over [η̇, θ̇], by rows, added to the weights above; symmetric.
@@ -37,6 +47,8 @@ pub enum CostId {
     FinalBaseAttitude,
     /// ‖ζ(t_f) − ζ(t₀)‖².
     FinalBasePosition,
+    /// ∫‖η‖² dt.
+    BaseAttitude,
     /// ∫‖ζ − ζ(t₀)‖² dt.
     BasePosition,
     /// ∫‖η̇‖² dt.
@@ -47,6 +59,12 @@ pub enum CostId {
     Control,
     /// ∫‖τ‖² dt.
     Torque,
+    /// The largest base angle.
+    PeakBaseAttitude,
+    /// The largest displacement of the base.
+    PeakBasePosition,
+    /// The largest rate of the base.
+    PeakBaseRate,
     /// t_f.
     Duration,
     /// Λ over [η̇, θ̇].
@@ -59,11 +77,15 @@ impl CostId {
         match self {
             Self::FinalBaseAttitude => "cost.final_base_attitude",
             Self::FinalBasePosition => "cost.final_base_position",
+            Self::BaseAttitude => "cost.base_attitude",
             Self::BasePosition => "cost.base_position",
             Self::BaseRate => "cost.base_rate",
             Self::JointRate => "cost.joint_rate",
             Self::Control => "cost.control",
             Self::Torque => "cost.torque",
+            Self::PeakBaseAttitude => "cost.peak_base_attitude",
+            Self::PeakBasePosition => "cost.peak_base_position",
+            Self::PeakBaseRate => "cost.peak_base_rate",
             Self::Duration => "cost.duration",
             Self::RateMatrix => "cost.rate_matrix",
         }
@@ -76,12 +98,18 @@ impl CostId {
             Self::FinalBaseAttitude if rotation => "φ(t_f)²",
             Self::FinalBaseAttitude => "‖η(t_f)‖²",
             Self::FinalBasePosition => "‖Δζ(t_f)‖²",
+            Self::BaseAttitude if rotation => "∫φ²",
+            Self::BaseAttitude => "∫‖η‖²",
             Self::BasePosition => "∫‖Δζ‖²",
             Self::BaseRate if rotation => "∫‖ω‖²",
             Self::BaseRate => "∫‖η̇‖²",
             Self::JointRate => "∫‖θ̇‖²",
             Self::Control => "∫‖u‖²",
             Self::Torque => "∫‖τ‖²",
+            Self::PeakBaseAttitude => "max φ",
+            Self::PeakBasePosition => "max ‖Δζ‖",
+            Self::PeakBaseRate if rotation => "max ‖ω‖",
+            Self::PeakBaseRate => "max ‖η̇‖",
             Self::Duration => "t_f",
             Self::RateMatrix if rotation => "∫[ω, θ̇]ᵀΛ[ω, θ̇]",
             Self::RateMatrix => "∫[η̇, θ̇]ᵀΛ[η̇, θ̇]",
@@ -111,16 +139,20 @@ pub struct CostEntry<W> {
 #[rustfmt::skip]
 macro_rules! table {
     ($cost:ident, $($borrow:tt)+) => {{
-        use ComponentKind::{BaseAttitude, BasePosition, BaseRate, Joint};
+        use ComponentKind::{Base, BaseAttitude, BasePosition, BaseRate, Joint};
         use CostId as Id;
         [
             CostEntry { id: Id::FinalBaseAttitude, components: BaseAttitude, weights: $($borrow)+ $cost.final_base_attitude },
             CostEntry { id: Id::FinalBasePosition, components: BasePosition, weights: $($borrow)+ $cost.final_base_position },
+            CostEntry { id: Id::BaseAttitude, components: BaseAttitude, weights: $($borrow)+ $cost.base_attitude },
             CostEntry { id: Id::BasePosition, components: BasePosition, weights: $($borrow)+ $cost.base_position },
             CostEntry { id: Id::BaseRate, components: BaseRate, weights: $($borrow)+ $cost.base_rate },
             CostEntry { id: Id::JointRate, components: Joint, weights: $($borrow)+ $cost.joint_rate },
             CostEntry { id: Id::Control, components: Joint, weights: $($borrow)+ $cost.control },
             CostEntry { id: Id::Torque, components: Joint, weights: $($borrow)+ $cost.torque },
+            CostEntry { id: Id::PeakBaseAttitude, components: Base, weights: $($borrow)+ $cost.peak_base_attitude },
+            CostEntry { id: Id::PeakBasePosition, components: Base, weights: $($borrow)+ $cost.peak_base_position },
+            CostEntry { id: Id::PeakBaseRate, components: Base, weights: $($borrow)+ $cost.peak_base_rate },
         ]
     }};
 }
@@ -133,11 +165,15 @@ impl Cost {
         Self {
             final_base_attitude: vec![0.0; angles],
             final_base_position: vec![0.0; lengths],
+            base_attitude: vec![0.0; angles],
             base_position: vec![0.0; lengths],
             base_rate: vec![0.0; angles],
             joint_rate: vec![0.0; n],
             control: vec![0.0; n],
             torque: vec![0.0; n],
+            peak_base_attitude: vec![0.0],
+            peak_base_position: vec![0.0],
+            peak_base_rate: vec![0.0],
             duration: 0.0,
             rate_matrix: None,
         }

@@ -1,5 +1,6 @@
 //! The name of a limit or requirement of a problem.
 
+use super::cost::CostId;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -31,6 +32,8 @@ pub enum LimitId {
     EndEffector,
     /// The way-point of that index.
     WayPoint(usize),
+    /// What holds a quantity below its largest value, which has a cost.
+    Peak(CostId),
 }
 
 impl LimitId {
@@ -63,6 +66,7 @@ impl LimitId {
             Self::FinalJoints => "final joint position",
             Self::EndEffector => "end effector",
             Self::WayPoint(_) => "way-point",
+            Self::Peak(_) => "peak",
         }
     }
 
@@ -81,6 +85,7 @@ impl LimitId {
             Self::FinalJoints => "task.final.joints",
             Self::EndEffector => "task.final.end_effector",
             Self::WayPoint(_) => "task.way_points",
+            Self::Peak(cost) => cost.key(),
         }
     }
 
@@ -96,6 +101,11 @@ impl LimitId {
     /// the displacement of the base have to be able to vanish.
     pub fn may_exclude_zero(self) -> bool {
         self == Self::JointPosition
+    }
+
+    /// Whether it may give way where a problem is infeasible. A peak is as large as it has to be.
+    pub fn may_give_way(self) -> bool {
+        !matches!(self, Self::Peak(_))
     }
 
     /// Whether it limits the motion of the base: a requirement of the mission, where limits of the

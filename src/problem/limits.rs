@@ -55,7 +55,8 @@ impl<B> LimitEntry<B> {
         (self.unit)(match self.components {
             ComponentKind::Joint => robot.joints()[i].kind,
             ComponentKind::BaseAttitude | ComponentKind::BaseRate => JointKind::Revolute,
-            ComponentKind::BasePosition => JointKind::Prismatic,
+            // No limit is on the base as a whole.
+            ComponentKind::BasePosition | ComponentKind::Base => JointKind::Prismatic,
         })
     }
 }

@@ -5,6 +5,7 @@
 //! those of a new one. docs/solution-file.md
 //! describes the format.
 
+mod base_motion;
 mod comparison;
 mod comparison_figure;
 mod file_set;

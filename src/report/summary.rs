@@ -1,5 +1,6 @@
 //! What a roboticist wants to know, in degrees and centimetres.
 
+use super::base_motion;
 use super::format::{OF_RELAXED, centimetres, cost, degrees, gap, list, rotation, seconds, shares};
 use super::lines::Lines;
 use super::peaks::Peaks;
@@ -10,6 +11,7 @@ use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Status};
 use crate::problem::Problem;
 use crate::refine::Verdict;
 use crate::solution;
+use crate::study::{BaseMotion, Baselines};
 use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
@@ -29,10 +31,17 @@ pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
             format!("{} s", digits(plan.discretization.duration, 6, 3)),
         );
     }
-    motion(&mut lines, &problem.robot, plan);
+    let baselines = Baselines::of(problem, &plan.discretization);
+    motion(&mut lines, &problem.robot, plan, &baselines);
     goals(&mut lines, problem, plan);
     if let Some(found) = &plan.verification {
         verification(&mut lines, &problem.robot, found);
+    }
+    if plan.status == Status::Solved && plan.method.optimises() {
+        let planned = BaseMotion::planned(&plan.metrics);
+        if let Some(remark) = base_motion::remark(planned, &baselines) {
+            lines.add("remark", remark);
+        }
     }
     for warning in &plan.warnings {
         lines.add("warning", warning);
@@ -141,7 +150,7 @@ fn status(plan: &Plan) -> String {
     }
 }
 
-fn motion(lines: &mut Lines, robot: &Model, plan: &Plan) {
+fn motion(lines: &mut Lines, robot: &Model, plan: &Plan, baselines: &Baselines) {
     let found = &plan.metrics;
     let last = |rows: &[Vec<f64>]| rows.last().cloned().unwrap_or_default();
     let attitude = last(&plan.trajectory.base_attitude);
@@ -161,6 +170,11 @@ fn motion(lines: &mut Lines, robot: &Model, plan: &Plan) {
             degrees(found.max_base_attitude)
         ),
     );
+    if plan.method != Method::StraightLine {
+        for (label, turned) in base_motion::beside(baselines) {
+            lines.add(&format!("  {label}"), turned);
+        }
+    }
     let position = last(&plan.trajectory.base_position);
     let start = plan
         .trajectory

@@ -8,6 +8,7 @@ use crate::config::{ConfigError, ProblemFile, regular};
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::planner::Status;
 use crate::problem::Problem;
+use crate::system::with_peaks;
 use crate::transcription::Discretization;
 use std::path::{Path, PathBuf};
 
@@ -114,6 +115,7 @@ impl Saved {
                 expected: format!("\"{}\", as the problem has it", problem.attitude.name()),
             });
         }
+        let plan = with_peaks(&file.problem, plan);
         Ok(Self {
             solution,
             file,

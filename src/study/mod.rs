@@ -1,7 +1,10 @@
-//! Many plans for one question: one task by every planner, over its trade-off, from many starts.
+//! Many plans for one question: one task by every planner, over its trade-off, from many starts; one plan
+//! beside the motion without planning.
 
+mod baselines;
 mod comparison;
 pub mod pareto;
 pub mod search;
 
+pub use baselines::{BaseMotion, Baselines, Gain, straight_to_end};
 pub use comparison::{Comparison, Entry};

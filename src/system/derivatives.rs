@@ -187,7 +187,7 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         let mut rest = rows;
         for block in &self.system.path {
             let (own, others) = rest.split_at(block.rows().len());
-            block.weigh(own, &mut adjoint);
+            block.weigh(&at, own, &mut adjoint);
             rest = others;
         }
         for term in &self.system.path_cost {
@@ -348,7 +348,8 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
         self.motion.second(accelerations, &by_omega[..Sp::ANGLES]);
 
         hessian.fill(0.0);
-        let mut hessian = Lower::new(hessian, states + n + 1);
+        let width = states + n + point.parameters.len() + 1;
+        let mut hessian = Lower::new(hessian, width);
         for (row, &i) in self.inputs.iter().enumerate() {
             for (column, &j) in self.inputs[..=row].iter().enumerate() {
                 hessian.add(i.max(j), i.min(j), self.motion.second_by(row, column));

@@ -2,7 +2,8 @@
 
 use super::plant::Plant;
 use super::rows::{
-    BoundId, Component, EndBlock, EndRows, PathBlock, PathRows, Row, WayPointRows, held, of_joint,
+    BoundId, Component, EndBlock, EndRows, PathBlock, PathRows, PeakRow, Row, WayPointRows, held,
+    of_joint,
 };
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
@@ -147,7 +148,7 @@ pub(crate) fn formulation<Sp: Space>(
         .chain(&task.initial_joints)
         .chain(&task.initial_rates)
         .copied();
-    Formulation {
+    let formulation = Formulation {
         states: quantities(&bounded.states),
         controls: quantities(&bounded.controls),
         path: quantities(&bounded.path),
@@ -161,5 +162,10 @@ pub(crate) fn formulation<Sp: Space>(
         duration: task.duration,
         way_points: way_points.iter().map(WayPointRows::formulate).collect(),
         ..Formulation::default()
-    }
+    };
+    // Starts bring their own peaks; one stands for those that are not known.
+    let peaks = PeakRow::all(problem).into_iter();
+    peaks.fold(formulation, |formulation, peak| {
+        formulation.parameter(peak.quantity(), 1.0)
+    })
 }

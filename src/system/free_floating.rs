@@ -56,7 +56,7 @@ impl<Sp: Space> FreeFloating<Sp> {
         let way_points: Vec<_> = points
             .map(|index| rows::way_point(problem, &plant, index))
             .collect();
-        let path_cost = cost::path::<Sp>(problem);
+        let path_cost = cost::path(problem, &plant);
         let end_cost = cost::end(problem, &plant);
         let needs = [
             path.iter().map(PathRows::needs).collect::<Vec<_>>(),

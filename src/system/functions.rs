@@ -81,6 +81,7 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
                 eta,
                 t,
                 data,
+                parameters: point.parameters,
             },
             dtheta,
             u: point.u,
@@ -103,7 +104,7 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
         rows: &mut [S],
     ) {
         if let Some(goal) = &self.way_points[point.way_point].goal {
-            let pose = self.pose(point.x, point.t, &mut scratch.data);
+            let pose = self.pose(point.x, point.parameters, point.t, &mut scratch.data);
             goal.values(&pose, rows);
         }
     }
@@ -119,13 +120,15 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
         rows: &mut [S],
     ) -> S {
         let at = if self.needs.end_pose {
-            self.pose(ends.terminal, ends.duration, &mut scratch.data)
+            let (x, p) = (ends.terminal, ends.parameters);
+            self.pose(x, p, ends.duration, &mut scratch.data)
         } else {
             Pose {
                 plant: &self.plant,
                 eta: &ends.terminal[..self.plant.parameters()],
                 t: ends.duration,
                 data: &scratch.data,
+                parameters: ends.parameters,
             }
         };
         let mut rest = rows;
@@ -139,10 +142,11 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
 }
 
 impl<Sp: Space> FreeFloating<Sp> {
-    /// The pose at the states `x`, `t` seconds after t₀.
+    /// The pose at the states `x`, `t` seconds after t₀, with the static parameters.
     pub(super) fn pose<'a, S: Scalar>(
         &'a self,
         x: &'a [S],
+        parameters: &'a [S],
         t: S,
         data: &'a mut Data<Sp, S>,
     ) -> Pose<'a, Sp, S> {
@@ -155,6 +159,7 @@ impl<Sp: Space> FreeFloating<Sp> {
             eta,
             t,
             data,
+            parameters,
         }
     }
 }

@@ -227,7 +227,7 @@ pub(crate) fn along<Sp: Space>(
     let (n, angles) = (problem.joint_count(), problem.attitude().count());
     let attitude = follow(problem, duration, path);
     let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    Discretization::sample(mesh, duration, angles + 2 * n, n, |fraction, x, u| {
+    let sampled = Discretization::sample(mesh, duration, angles + 2 * n, n, |fraction, x, u| {
         path.at_fraction(fraction, &mut q, &mut dq, &mut ddq);
         let position = fraction * STEPS as f64;
         let (k, share) = (position as usize, position.fract());
@@ -240,7 +240,8 @@ pub(crate) fn along<Sp: Space>(
             x[angles + n + j] = dq[j] / duration;
             u[j] = ddq[j] / (duration * duration);
         }
-    })
+    });
+    problem.with_peaks(sampled)
 }
 
 /// A start whose joints go from rest to rest through `way_points` (each of length n) as well, the base

@@ -16,6 +16,8 @@ pub(crate) struct Pose<'a, Sp: Space, S: Scalar> {
     pub t: S,
     /// With the kinematics of the joint positions, and the mass centre.
     pub data: &'a Data<Sp, S>,
+    /// Static parameters: the peaks that the cost is about.
+    pub parameters: &'a [S],
 }
 
 /// The motion at an instant of the path.

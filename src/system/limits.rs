@@ -39,7 +39,7 @@ impl<Sp: Space> FreeFloating<Sp> {
         let mut found: Vec<ElasticLimit> = Vec::new();
         for limited in self.relaxable() {
             let row = self.bound(limited);
-            if row.quantity.bounds.is_free() {
+            if row.quantity.bounds.is_free() || !row.id.limit.may_give_way() {
                 continue;
             }
             match found

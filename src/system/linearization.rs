@@ -8,7 +8,7 @@ use crate::ocp::Point;
 
 /// A collocation point with the first derivatives of the base's rates and of the torques.
 ///
-/// The inputs of all derivatives are η, θ, θ̇, u, t in this order.
+/// The inputs of all derivatives are η, θ, θ̇, u, the static parameters and t in this order.
 #[derive(Debug)]
 pub(crate) struct Linearization<'a, Sp: Space> {
     pub plant: &'a Plant<Sp>,
@@ -37,7 +37,12 @@ impl<Sp: Space> Linearization<'_, Sp> {
 
     /// Input that the time is, the last one.
     pub fn time(&self) -> usize {
-        self.states() + self.joints()
+        self.parameter(self.point.parameters.len())
+    }
+
+    /// Input that static parameter `i` is.
+    pub fn parameter(&self, i: usize) -> usize {
+        self.states() + self.joints() + i
     }
 
     /// Number of inputs, the width of a row.

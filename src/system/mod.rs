@@ -11,7 +11,9 @@
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
 //! | `starts/` | paths unlike each other to begin a search with |
 //! | `motion`, `metrics` | a motion over time, its figures, the base angle |
+//! | `peaks` | the largest values that the cost is about |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
+//! | `sizes` | sizes of the task, by which presets of weights are measured |
 //! | `impossible/` | what no motion can do, found before any solve |
 
 mod cost;
@@ -29,11 +31,13 @@ mod limits;
 mod linearization;
 mod metrics;
 mod motion;
+mod peaks;
 mod plant;
 mod pose_function;
 mod quintic;
 mod row_values;
 mod rows;
+mod sizes;
 mod starts;
 mod straight_line;
 mod torques;
@@ -48,8 +52,10 @@ pub use impossible::impossible;
 pub use limits::ElasticLimit;
 pub use metrics::{at_nodes, base_angles, base_displacements, finely, metrics_of};
 pub use motion::{Metrics, Trajectory};
+pub use peaks::with_peaks;
 pub use row_values::cost_terms;
 pub use rows::{BoundId, Component, Measure, Row};
+pub use sizes::sizes;
 pub use starts::StartKind;
 pub use straight_line::{StraightLine, straight_line, straight_motion};
 pub use trajectory::{limited_angles, resampled};

@@ -62,21 +62,30 @@ fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Hands each input with the derivative of `value` by it to `each`.
+pub(crate) fn each_slope<Sp: Space>(
+    at: &Linearization<'_, Sp>,
+    value: &Variable,
+    mut each: impl FnMut(usize, f64),
+) {
+    let (by_eta, rest) = value.rows.split_at(at.plant.parameters());
+    let (by_center, rest) = rest.split_at(Sp::LENGTHS);
+    for (i, by) in by_eta.iter().enumerate() {
+        each(i, *by);
+    }
+    for k in 0..at.joints() {
+        each(at.position(k), inner(moved(at, k).components(), by_center));
+    }
+    each(at.time(), rest[0]);
+}
+
 /// Adds the derivatives of `value` by the inputs to `row`.
 pub(crate) fn add_gradient<Sp: Space>(
     at: &Linearization<'_, Sp>,
     value: &Variable,
     row: &mut [f64],
 ) {
-    let (by_eta, rest) = value.rows.split_at(at.plant.parameters());
-    let (by_center, rest) = rest.split_at(Sp::LENGTHS);
-    for (to, by) in row.iter_mut().zip(by_eta) {
-        *to += by;
-    }
-    for k in 0..at.joints() {
-        row[at.position(k)] += inner(moved(at, k).components(), by_center);
-    }
-    row[at.time()] += rest[0];
+    each_slope(at, value, |input, by| row[input] += by);
 }
 
 /// Adds `weight` times the second derivatives of `value` by the inputs.

@@ -34,7 +34,7 @@ impl<Sp: Space> FreeFloating<Sp> {
     pub(crate) fn goal_values(&self, goal: &EndEffectorRows<Sp>, x: &[f64], t: f64) -> Vec<f64> {
         let mut data = Data::<Sp, f64>::new(self.tree());
         let mut rows = vec![0.0; goal.rows().len()];
-        goal.values(&self.pose(x, t, &mut data), &mut rows);
+        goal.values(&self.pose(x, &[], t, &mut data), &mut rows);
         rows
     }
 
@@ -43,6 +43,7 @@ impl<Sp: Space> FreeFloating<Sp> {
         let mut scratch = self.scratch::<f64>();
         let mut rates = vec![0.0; trajectory.states];
         let times = trajectory.times();
+        let trajectory = &self.with_peaks(trajectory.clone());
         (0..trajectory.mesh.points())
             .map(|k| {
                 let mut rows = vec![0.0; self.path_rows().len()];
@@ -73,13 +74,14 @@ impl<Sp: Space> FreeFloating<Sp> {
     /// Values of the boundary rows at the ends of `trajectory`.
     pub fn end_values(&self, trajectory: &Discretization) -> Vec<f64> {
         let mut rows = vec![0.0; self.bounded.boundary.len()];
+        let trajectory = self.with_peaks(trajectory.clone());
         self.boundary(trajectory.ends(), &mut self.scratch::<f64>(), &mut rows);
         rows
     }
 
     /// The cost of `trajectory`, term by term, by the quadrature of (25).
     pub fn cost_terms(&self, trajectory: &Discretization) -> CostTerms {
-        let plant = &self.plant;
+        let (plant, peaks) = (&self.plant, self.peaks(trajectory));
         let mut data = Data::<Sp, f64>::new(&plant.tree);
         let mut eta_rates = vec![0.0; plant.parameters()];
         let mut torque = vec![0.0; plant.joints()];
@@ -104,6 +106,7 @@ impl<Sp: Space> FreeFloating<Sp> {
                     eta,
                     t: times[k],
                     data: &data,
+                    parameters: &peaks,
                 },
                 dtheta,
                 u,
@@ -115,7 +118,7 @@ impl<Sp: Space> FreeFloating<Sp> {
             }
         }
         let last = trajectory.state(trajectory.mesh.points());
-        let end = self.pose(last, trajectory.duration, &mut data);
+        let end = self.pose(last, &peaks, trajectory.duration, &mut data);
         let path = self
             .path_cost
             .iter()

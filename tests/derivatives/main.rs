@@ -14,6 +14,7 @@ mod explicit_time;
 mod functions;
 mod in_space;
 mod in_the_plane;
+mod peaks;
 mod problem_kinds;
 mod reference;
 mod rows;

@@ -12,6 +12,7 @@ pub fn loaded(robot: Model) -> Problem {
     let mut problem = Problem::builder("loaded", robot, 3.0, &vec![0.1; n], &vec![0.5; n]);
     problem.cost.final_base_attitude = vec![1.3; angles];
     problem.cost.final_base_position = vec![0.8; lengths];
+    problem.cost.base_attitude = (0..angles).map(|i| 0.9 - 0.2 * i as f64).collect();
     problem.cost.base_position = vec![0.7; lengths];
     problem.cost.base_rate = vec![0.6; angles];
     problem.cost.joint_rate = vec![0.2; n];
@@ -26,6 +27,7 @@ pub fn described(problem: Problem, attitude: SpatialAttitude) -> Problem {
     let mut problem = problem.into_builder();
     problem.set_attitude(attitude);
     problem.cost.final_base_attitude = vec![1.3];
+    problem.cost.base_attitude = vec![0.9];
     problem.cost.base_rate = vec![0.6, 0.5, 0.4];
     problem.limits.base_rate = vec![Interval::symmetric(0.6); 3];
     problem.limits.base_attitude = vec![Interval::symmetric(0.9)];

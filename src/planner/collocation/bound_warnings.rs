@@ -6,10 +6,12 @@ use crate::ocp::Limited;
 use crate::problem::LimitId;
 use crate::refine::{Bounded, Violation};
 use crate::system::FreeFloating;
+use crate::transcription::Discretization;
 
 /// A sentence for each of `violations`: the limit, how far it is exceeded, when, and what helps.
 pub(super) fn warnings<Sp: Space>(
     system: &FreeFloating<Sp>,
+    trajectory: &Discretization,
     violations: &[Violation],
 ) -> Vec<String> {
     let sentence = |violation: &Violation| {
@@ -18,6 +20,7 @@ pub(super) fn warnings<Sp: Space>(
             Bounded::Control(j) => Limited::Control(j),
             Bounded::Path(p) => Limited::Path(p),
         });
+        let row = row.bounded_by(&trajectory.parameters);
         let time = digits(violation.t, 3, 2);
         if violation.value.is_nan() {
             return format!(

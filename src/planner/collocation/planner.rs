@@ -118,7 +118,7 @@ fn led<Sp: Space>(
 ) -> Result<Start, PlanError> {
     check_start(given, system)?;
     Ok(Start {
-        trajectory: retarget::retarget(&given.trajectory, problem),
+        trajectory: system.with_peaks(retarget::retarget(&given.trajectory, problem)),
         iterate: given.iterate.clone(),
     })
 }
@@ -257,7 +257,11 @@ fn assemble<Sp: Space>(
     let max_error = if status == Status::Infeasible {
         midpoint_errors(system, &outcome.trajectory).max()
     } else {
-        warnings.extend(bound_warnings::warnings(system, &outcome.violations));
+        warnings.extend(bound_warnings::warnings(
+            system,
+            &outcome.trajectory,
+            &outcome.violations,
+        ));
         outcome.max_error()
     };
     Plan {

@@ -14,7 +14,9 @@ use crate::planner::words::sentence;
 use crate::planner::{Diagnosis, LimitFinding, Method, Plan, PlanError, Starts, Status, Timing};
 use crate::problem::{LimitId, Problem, ProblemError, Unit};
 use crate::refine::{Errors, midpoint_errors};
-use crate::system::{Component, FreeFloating, goal_errors_in, metrics, of_joint, trajectory};
+use crate::system::{
+    Component, FreeFloating, Trajectory, goal_errors_in, metrics, of_joint, trajectory,
+};
 use crate::transcription::Discretization;
 use std::time::Instant;
 
@@ -269,7 +271,7 @@ fn sample<Sp: Space>(
         }
     }
     u.truncate(points * n);
-    Ok(Discretization {
+    Ok(system.with_peaks(Discretization {
         mesh,
         initial_time: 0.0,
         duration,
@@ -279,7 +281,35 @@ fn sample<Sp: Space>(
         controls: n,
         x,
         u,
-    })
+    }))
+}
+
+/// Times looked at between two breakpoints.
+const LOOKED_AT: usize = 40;
+
+/// Times and attitudes of the base along `motion`; all other columns stay empty.
+pub(super) fn attitudes<Sp: Space>(
+    system: &FreeFloating<Sp>,
+    motion: &impl JointMotion,
+) -> Trajectory {
+    let mut follower = Follower::new(system, motion);
+    let mut found = Trajectory {
+        t: vec![0.0],
+        attitude: system.attitude().in_space(),
+        base_attitude: vec![follower.eta.clone()],
+        ..Trajectory::default()
+    };
+    let mut t = 0.0;
+    for (piece, ends) in motion.breakpoints().windows(2).enumerate() {
+        for k in 1..=LOOKED_AT {
+            let next = ends[0] + (ends[1] - ends[0]) * k as f64 / LOOKED_AT as f64;
+            follower.carry(piece, t, next);
+            t = next;
+            found.t.push(t);
+            found.base_attitude.push(follower.eta.clone());
+        }
+    }
+    found
 }
 
 /// Carries the base along the joints' motion by the classical Runge-Kutta method.

@@ -8,12 +8,12 @@
 //!
 //! Derived in docs/algorithms.md#matpm.
 
-use super::joint_motion::{JointMotion, assemble, duration, rest_to_rest};
+use super::joint_motion::{self, JointMotion, assemble, duration, rest_to_rest};
 use crate::digits::digits;
 use crate::ocp::Interval;
 use crate::planner::{Diagnosis, Method, Plan, PlanError};
 use crate::problem::{LimitId, Problem};
-use crate::system::{Component, System, with_system};
+use crate::system::{Component, System, Trajectory, with_system};
 use std::time::Instant;
 
 /// Plans `problem`'s task with the least largest acceleration of every joint.
@@ -33,6 +33,17 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
         too_fast(problem, &motion, diagnosis);
     }
     Ok(plan)
+}
+
+/// Times and attitudes of the base along that motion; `None` where the task is not from rest to rest in
+/// joint space, or a joint cannot be there in time.
+pub fn attitudes(problem: &Problem) -> Option<Trajectory> {
+    rest_to_rest(Method::Matpm, problem).ok()?;
+    let motion = BangCruiseBang::new(problem);
+    let late = motion.joints.iter().any(|joint| joint.late);
+    let found =
+        || with_system!(&System::new(problem), system => joint_motion::attitudes(system, &motion));
+    (!late).then(found)
 }
 
 /// Names the least rates with which the joints that are too slow would be there in time; what the

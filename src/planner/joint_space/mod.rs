@@ -5,3 +5,5 @@ mod joint_motion;
 pub(super) mod matpm;
 pub(super) mod quintic;
 pub(super) mod reaction_null_space;
+
+pub use matpm::attitudes as matpm_attitudes;

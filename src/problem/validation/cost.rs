@@ -20,6 +20,7 @@ fn every_weight(problem: &ProblemBuilder) -> Checked {
             ComponentKind::Joint => "joints",
             ComponentKind::BaseAttitude | ComponentKind::BaseRate => "base angles",
             ComponentKind::BasePosition => "base lengths",
+            ComponentKind::Base => "bases",
         };
         count(key, entry.weights.len(), expected, what)?;
         for (i, &value) in entry.weights.iter().enumerate() {

@@ -21,6 +21,7 @@ fn every_bound(problem: &ProblemBuilder) -> Checked {
             ComponentKind::BaseAttitude if problem.has_rotation_angle() => "base rotation angles",
             ComponentKind::BaseAttitude | ComponentKind::BaseRate => "base angles",
             ComponentKind::BasePosition => "base lengths",
+            ComponentKind::Base => "bases",
         };
         count(&key, entry.bounds.len(), expected, what)?;
         for (i, bound) in entry.bounds.iter().enumerate() {

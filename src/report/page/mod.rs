@@ -7,12 +7,12 @@ mod texts;
 
 use super::format::{cost, degrees, time};
 use crate::collocation::Mesh;
-use crate::ocp::Interval;
 use crate::planner::{Method, Status};
 use crate::printable::printable;
 use crate::problem::Problem;
 use crate::solution::{Build, Search, Solution};
-use crate::system::{Trajectory, resampled, straight_motion};
+use crate::study::{Baselines, straight_to_end};
+use crate::system::resampled;
 use crate::transcription::Discretization;
 use charts::Panel;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -30,7 +30,8 @@ const FRAMES: usize = 120;
 /// The page of `solution`, which is `plan` for `problem`.
 pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> String {
     let status = solution.status;
-    let straight = straight(problem, plan);
+    let straight = straight_to_end(problem, plan, FRAMES);
+    let baselines = Baselines::of(problem, plan);
     let in_joints = solution.method == Method::StraightLine.name();
     let straight = straight.as_ref().filter(|_| !in_joints);
     // One point a segment: the nodes are the breakpoints.
@@ -69,7 +70,7 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
                     }
                 }
                 (playback(&scene))
-                section { h2 { "In figures" } (facts(&texts::figures(solution, problem))) }
+                section { h2 { "In figures" } (facts(&texts::figures(solution, problem, &baselines))) }
                 section {
                     h2 {
                         @if status == Status::Solved && solution.verification.is_some() { "Why the numbers can be trusted" }
@@ -92,24 +93,6 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
     .into_string();
     // Names and texts come from files.
     printable(&page).into_owned()
-}
-
-/// The motion along the straight joint path to where `plan` ends, in its time; `None` where the
-/// task is not from rest to rest.
-fn straight(problem: &Problem, plan: &Discretization) -> Option<Trajectory> {
-    let task = &problem.task;
-    if task.initial_rates.iter().any(|rate| *rate != 0.0) {
-        return None;
-    }
-    let n = problem.robot.joint_count();
-    let last = plan.state(plan.mesh.points());
-    let reached = &last[last.len() - 2 * n..last.len() - n];
-    // Where a plan ends need not be within the limits, which have no part in the straight path.
-    let problem = problem.edited(|problem| {
-        problem.task.final_joints = reached.to_vec();
-        problem.limits.joint_position.fill(Interval::FREE);
-    });
-    Some(straight_motion(&problem.ok()?, plan.duration, FRAMES))
 }
 
 /// The robot in motion; drawn by the script from the scene.

@@ -4,9 +4,11 @@ use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::planner::Status;
 use crate::problem::Problem;
+use crate::report::base_motion;
 use crate::report::format::{OF_RELAXED, centimetres, cost, degrees, gap, shares, time};
 use crate::report::peaks::Peaks;
 use crate::solution::{CostTerm, Solution, Verification};
+use crate::study::{BaseMotion, Baselines};
 use crate::system::{Trajectory, base_angles, base_displacements};
 
 /// A fact: what, how much, and where it needs one, what that means.
@@ -59,7 +61,7 @@ pub(super) fn lead(solution: &Solution, straight: Option<&Trajectory>) -> String
 }
 
 /// The figures a person asks for first.
-pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
+pub(super) fn figures(solution: &Solution, problem: &Problem, baselines: &Baselines) -> Vec<Fact> {
     let fact = |what: &str, value: String| Fact::new(what, value, "");
     let found = &solution.metrics;
     let last = solution.trajectory.t.last().copied().unwrap_or(0.0);
@@ -73,13 +75,14 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
             "mesh",
             format!("{} segments, {} points", solution.segments, solution.points),
         ),
-        fact(
+        Fact::new(
             "base attitude",
             format!(
                 "{} at most, {} at the end",
                 degrees(found.max_base_attitude),
                 degrees(found.final_base_attitude)
             ),
+            &without_planning(solution, baselines),
         ),
         fact(
             "base displacement",
@@ -100,6 +103,22 @@ pub(super) fn figures(solution: &Solution, problem: &Problem) -> Vec<Fact> {
     };
     facts.push(fact("planned in", spent));
     facts
+}
+
+/// The base's motion without planning, and a word where planning gained little over it.
+fn without_planning(solution: &Solution, baselines: &Baselines) -> String {
+    let beside = base_motion::beside(baselines).into_iter();
+    let planned = BaseMotion {
+        largest: solution.metrics.max_base_attitude,
+        last: solution.metrics.final_base_attitude,
+    };
+    let solved = solution.status == Status::Solved && !solution.iterations.is_empty();
+    let remark = solved.then(|| base_motion::remark(planned, baselines));
+    beside
+        .map(|(label, turned)| format!("{label}: {turned}"))
+        .chain(remark.flatten())
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// What the cost is the cost of where no plan is, and its terms where there are several.

@@ -89,7 +89,7 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
             },
         };
         let start = Start {
-            trajectory: from,
+            trajectory: self.system.with_peaks(from),
             iterate: None,
         };
         let outcome = refinement.run(&start, &mut |_| monitor())?;

@@ -4,10 +4,12 @@
 //! [`EndTerm`]. [`PathCost`] and [`EndCost`] list the kinds, [`path`] and [`end`] make those that a
 //! problem has weights for. The cost, its derivatives and its breakdown follow from these lists.
 
+mod base_attitude;
 mod base_position;
 mod breakdown;
 mod control;
 mod effort;
+mod peak;
 mod rates;
 mod term;
 mod terminal;
@@ -25,8 +27,10 @@ use super::plant::Plant;
 use crate::autodiff::Scalar;
 use crate::dynamics::space::Space;
 use crate::problem::{CostId, Problem};
+use base_attitude::BaseAttitudeTerm;
 use base_position::BasePositionTerm;
 use control::ControlTerm;
+use peak::PeakTerm;
 use rates::RateTerm;
 use terminal::{DurationTerm, FinalAttitudeTerm, FinalPositionTerm};
 use torque::TorqueTerm;
@@ -34,6 +38,7 @@ use torque::TorqueTerm;
 /// The kinds of terms of the path.
 #[derive(Debug, Clone)]
 pub(crate) enum PathCost {
+    BaseAttitude(BaseAttitudeTerm),
     BasePosition(BasePositionTerm),
     Rates(RateTerm),
     Control(ControlTerm),
@@ -43,6 +48,7 @@ pub(crate) enum PathCost {
 macro_rules! each_path {
     ($cost:expr, $term:ident => $do:expr) => {
         match $cost {
+            PathCost::BaseAttitude($term) => $do,
             PathCost::BasePosition($term) => $do,
             PathCost::Rates($term) => $do,
             PathCost::Control($term) => $do,
@@ -52,11 +58,12 @@ macro_rules! each_path {
 }
 
 /// The terms of the path that `problem` has weights for.
-pub(crate) fn path<Sp: Space>(problem: &Problem) -> Vec<PathCost> {
+pub(crate) fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<PathCost> {
     let mut terms = Vec::new();
     terms.extend(RateTerm::squares(problem).map(PathCost::Rates));
     terms.extend(ControlTerm::new(problem).map(PathCost::Control));
     terms.extend(TorqueTerm::new(problem).map(PathCost::Torque));
+    terms.extend(BaseAttitudeTerm::new(problem, plant).map(PathCost::BaseAttitude));
     terms.extend(BasePositionTerm::new(problem).map(PathCost::BasePosition));
     terms.extend(RateTerm::matrix(problem, Sp::ANGLES).map(PathCost::Rates));
     terms
@@ -68,6 +75,7 @@ pub(crate) enum EndCost {
     Attitude(FinalAttitudeTerm),
     Position(FinalPositionTerm),
     Duration(DurationTerm),
+    Peak(PeakTerm),
 }
 
 macro_rules! each_end {
@@ -76,6 +84,7 @@ macro_rules! each_end {
             EndCost::Attitude($term) => $do,
             EndCost::Position($term) => $do,
             EndCost::Duration($term) => $do,
+            EndCost::Peak($term) => $do,
         }
     };
 }
@@ -86,6 +95,7 @@ pub(crate) fn end<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<EndCos
     terms.extend(FinalAttitudeTerm::new(problem, plant).map(EndCost::Attitude));
     terms.extend(DurationTerm::new(problem).map(EndCost::Duration));
     terms.extend(FinalPositionTerm::new(problem).map(EndCost::Position));
+    terms.extend(PeakTerm::all(problem).map(EndCost::Peak));
     terms
 }
 

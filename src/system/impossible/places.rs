@@ -37,11 +37,13 @@ fn values<Sp: Space>(system: &FreeFloating<Sp>, joints: &[f64], rates: &[f64]) -
     let u = vec![0.0; joints.len()];
     let mut rows = vec![0.0; system.path_rows().len()];
     let mut derivatives = vec![0.0; x.len()];
+    // No place is forbidden by a peak, whatever it is.
+    let peaks = vec![1.0; system.formulation.parameters.len()];
     let point = Point {
         x: &x,
         u: &u,
         t: 0.0,
-        parameters: &[],
+        parameters: &peaks,
     };
     let mut scratch = system.scratch::<f64>();
     system.continuous(point, &mut scratch, &mut derivatives, &mut rows);

@@ -51,7 +51,7 @@ impl<Sp: Space> PathRows<Sp> for BaseRateRows {
         }
     }
 
-    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+    fn weigh(&self, _at: &Linearization<'_, Sp>, weights: &[f64], adjoint: &mut Adjoint<'_>) {
         for (to, weight) in adjoint.base_rate.iter_mut().zip(weights) {
             *to += weight;
         }

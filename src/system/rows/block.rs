@@ -23,8 +23,8 @@ pub(crate) trait PathRows<Sp: Space> {
     fn gradient(&self, at: &Linearization<'_, Sp>, rows: &mut [f64]);
 
     /// Adds to the weights on what the rows are functions of.
-    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
-        let _ = (weights, adjoint);
+    fn weigh(&self, at: &Linearization<'_, Sp>, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+        let _ = (at, weights, adjoint);
     }
 
     /// Adds second derivatives beyond those of what [`Self::weigh`] names.

@@ -10,6 +10,7 @@ mod base_rate;
 mod block;
 mod end_effector;
 mod keep_out;
+mod peak;
 mod rotation_angle;
 mod row;
 mod torque;
@@ -21,6 +22,7 @@ pub(crate) use row::of_joint;
 
 pub(crate) use block::{EndRows, PathRows};
 pub(crate) use end_effector::EndEffectorRows;
+pub(crate) use peak::{LEAST as LEAST_PEAK, PeakRow};
 pub(crate) use rotation_angle::{NAME as ROTATION_ANGLE, held};
 pub(crate) use way_point::{WayPointRows, way_point};
 
@@ -43,6 +45,7 @@ pub(crate) enum PathBlock<Sp: Space> {
     Torque(TorqueRows),
     RotationAngle(RotationAngleRow),
     BasePosition(BasePositionRows),
+    Peak(PeakRow),
     KeepOut(Box<KeepOutRow<Sp>>),
 }
 
@@ -53,6 +56,7 @@ macro_rules! each_path {
             PathBlock::Torque($rows) => $do,
             PathBlock::RotationAngle($rows) => $do,
             PathBlock::BasePosition($rows) => $do,
+            PathBlock::Peak($rows) => $do,
             PathBlock::KeepOut(boxed) => {
                 let $rows = boxed.as_ref();
                 $do
@@ -69,6 +73,7 @@ pub(crate) fn path<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<PathB
     blocks.extend(RotationAngleRow::path(problem, plant).map(PathBlock::RotationAngle));
     blocks.extend(BasePositionRows::new(problem).map(PathBlock::BasePosition));
     blocks.extend(KeepOutRow::all(problem, plant).map(|row| PathBlock::KeepOut(Box::new(row))));
+    blocks.extend(PeakRow::all(problem).into_iter().map(PathBlock::Peak));
     blocks
 }
 
@@ -78,6 +83,7 @@ pub(crate) enum EndBlock<Sp: Space> {
     EndEffector(EndEffectorRows<Sp>),
     RotationAngle(RotationAngleRow),
     BasePosition(BasePositionRows),
+    Peak(PeakRow),
     KeepOut(Box<KeepOutRow<Sp>>),
 }
 
@@ -87,6 +93,7 @@ macro_rules! each_end {
             EndBlock::EndEffector($rows) => $do,
             EndBlock::RotationAngle($rows) => $do,
             EndBlock::BasePosition($rows) => $do,
+            EndBlock::Peak($rows) => $do,
             EndBlock::KeepOut(boxed) => {
                 let $rows = boxed.as_ref();
                 $do
@@ -102,6 +109,8 @@ pub(crate) fn end<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<EndBlo
     blocks.extend(RotationAngleRow::ends(problem, plant).map(EndBlock::RotationAngle));
     blocks.extend(BasePositionRows::new(problem).map(EndBlock::BasePosition));
     blocks.extend(KeepOutRow::all(problem, plant).map(|row| EndBlock::KeepOut(Box::new(row))));
+    let peaks = PeakRow::all(problem).into_iter();
+    blocks.extend(peaks.filter(PeakRow::reaches_the_end).map(EndBlock::Peak));
     blocks
 }
 
@@ -122,8 +131,8 @@ impl<Sp: Space> PathRows<Sp> for PathBlock<Sp> {
         each_path!(self, block => block.gradient(at, rows));
     }
 
-    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
-        each_path!(self, block => PathRows::<Sp>::weigh(block, weights, adjoint));
+    fn weigh(&self, at: &Linearization<'_, Sp>, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+        each_path!(self, block => block.weigh(at, weights, adjoint));
     }
 
     fn curvature(&self, at: &Linearization<'_, Sp>, weights: &[f64], hessian: &mut Lower<'_>) {

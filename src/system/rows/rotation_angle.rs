@@ -96,7 +96,7 @@ impl<Sp: Space> PathRows<Sp> for RotationAngleRow {
         }
     }
 
-    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+    fn weigh(&self, _at: &Linearization<'_, Sp>, weights: &[f64], adjoint: &mut Adjoint<'_>) {
         adjoint.squared_rotation[0] += self.factor * weights[0];
     }
 }

@@ -26,6 +26,8 @@ pub enum Component {
     Orientation(usize),
     /// That the end effector is not half a turn off.
     NotReversed,
+    /// The largest value of a quantity of the base.
+    Peak,
 }
 
 /// Which limit, and which component of it.
@@ -61,6 +63,11 @@ pub enum Measure {
     SquaredRatio {
         /// The bound, in the unit of the row.
         bound: f64,
+    },
+    /// The same where a static parameter is the bound: see [`Row::bounded_by`].
+    SquaredRatioToParameter {
+        /// Which one.
+        parameter: usize,
     },
 }
 
@@ -123,11 +130,24 @@ impl Row {
         self
     }
 
+    /// The same with the bound that a static parameter is, where one is.
+    pub fn bounded_by(&self, parameters: &[f64]) -> Self {
+        let mut row = self.clone();
+        if let Measure::SquaredRatioToParameter { parameter } = self.measure {
+            row.measure = Measure::SquaredRatio {
+                bound: parameters[parameter],
+            };
+        }
+        row
+    }
+
     /// The quantity behind the programme's `value`, in the row's unit.
     pub fn measured(&self, value: f64) -> f64 {
         match self.measure {
             Measure::Itself => value,
             Measure::SquaredRatio { bound } => bound * value.max(0.0).sqrt(),
+            // Of the bound, which is not known here.
+            Measure::SquaredRatioToParameter { .. } => value.max(0.0).sqrt(),
         }
     }
 
@@ -135,7 +155,7 @@ impl Row {
     pub fn measured_bounds(&self) -> Interval {
         match self.measure {
             Measure::Itself => self.quantity.bounds,
-            Measure::SquaredRatio { .. } => {
+            Measure::SquaredRatio { .. } | Measure::SquaredRatioToParameter { .. } => {
                 Interval::new(0.0, self.measured(self.quantity.bounds.upper))
             }
         }

@@ -58,7 +58,7 @@ impl<Sp: Space> PathRows<Sp> for TorqueRows {
         }
     }
 
-    fn weigh(&self, weights: &[f64], adjoint: &mut Adjoint<'_>) {
+    fn weigh(&self, _at: &Linearization<'_, Sp>, weights: &[f64], adjoint: &mut Adjoint<'_>) {
         for (to, weight) in adjoint.torque.iter_mut().zip(weights) {
             *to += weight;
         }
