@@ -13,7 +13,7 @@ use crate::nlp::ipopt::{reach_of_option, reach_of_solver};
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::problem::{ComponentKind, Cost, CostId, LimitId, Limits, Momentum, Task};
-use crate::refine::{self, ErrorMeasure, Method};
+use crate::refine::{self, ErrorMeasure, Law, Method};
 use std::time::Duration;
 
 /// Most segments and mesh iterations: beyond them a typing error is more likely than a wish. How many
@@ -197,6 +197,7 @@ fn matrix(item: &Item<'_>) -> Result<Vec<Vec<f64>>, ConfigError> {
 pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), ConfigError> {
     let section = item.section(&[
         "method",
+        "law",
         "segments",
         "points",
         "tolerance",
@@ -215,6 +216,12 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         let name = item.text(&expected)?;
         let found = Method::ALL.into_iter().find(|method| method.name() == name);
         mesh.method = found.ok_or_else(|| item.error(quoted(name), &expected))?;
+    }
+    if let Some(item) = section.get("law") {
+        let expected = Law::ALL.map(|law| quoted(law.name())).join(" or ");
+        let name = item.text(&expected)?;
+        let found = Law::ALL.into_iter().find(|law| law.name() == name);
+        mesh.law = found.ok_or_else(|| item.error(quoted(name), &expected))?;
     }
     for (name, value, most) in [
         ("segments", &mut mesh.segments, MOST),
