@@ -127,7 +127,7 @@ impl Layout {
             knots: (structure.knots.iter())
                 .map(|knot| mesh.start(knot.breakpoint))
                 .collect(),
-            structural: structure.rows(),
+            structural: structure.row_count(),
         }
     }
 

@@ -30,4 +30,4 @@ pub use program::Transcription;
 pub use quadrature::integrals;
 pub use reach::Reach;
 pub use scales::Scales;
-pub use structure::{FixedControl, Knot, SmoothState, Structure};
+pub use structure::{FixedControl, FixedRow, Knot, SmoothState, Structure};

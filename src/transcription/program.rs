@@ -240,6 +240,13 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
                 upper[layout.path(k, p)] = row.bounds.upper;
             }
         }
+        for fixed in &self.structure.rows {
+            let s = fixed.segment;
+            for k in self.mesh.start(s)..self.mesh.start(s + 1) {
+                lower[layout.path(k, fixed.row)] = fixed.value;
+                upper[layout.path(k, fixed.row)] = fixed.value;
+            }
+        }
         for (w, point) in self.formulation.way_points.iter().enumerate() {
             for (r, row) in point.rows.iter().enumerate() {
                 lower[layout.way_point(w, r)] = row.bounds.lower;
@@ -400,30 +407,46 @@ impl<O: Ocp> Transcription<'_, O> {
         self.evaluation.need_first(x)
     }
 
-    /// Whether every control that the structure fixes on one of its bounds is better there than inside,
-    /// by the slope of the Lagrangian at `iterate`: within a part of the steepest of the control.
+    /// Whether every control and row that the structure fixes on one of its bounds is better there than
+    /// inside, by the slope of the Lagrangian at `iterate` and by the rows' multipliers: within a part of
+    /// the steepest in the arc.
     pub fn arcs_hold(&mut self, iterate: &Iterate) -> bool {
-        if self.structure.fixed.is_empty() {
+        if self.structure.fixed.is_empty() && self.structure.rows.is_empty() {
             return true;
         }
         let Some(slope) = self.slope(iterate) else {
             return false;
         };
-        let density = |k: usize, control: usize| {
-            slope[self.layout.control(k, control)] / self.evaluation.grid.quadrature[k]
-        };
-        self.structure.fixed.iter().all(|fixed| {
-            let bounds = self.formulation.controls[fixed.control].bounds;
-            let inward = if fixed.value == bounds.lower { 1.0 } else { -1.0 };
-            let points = self.mesh.start(fixed.segment)..self.mesh.start(fixed.segment + 1);
+        let weights = &self.evaluation.grid.quadrature;
+        // The loss by a step inward must be one everywhere.
+        let holds = |segment: usize, loss: &dyn Fn(usize) -> f64| {
+            let points = self.mesh.start(segment)..self.mesh.start(segment + 1);
             let (mut least, mut most) = (0.0_f64, 0.0_f64);
-            for k in points {
-                let gain = inward * density(k, fixed.control);
-                least = least.min(gain);
-                most = most.max(gain);
+            for loss in points.map(|k| loss(k) / weights[k]) {
+                least = least.min(loss);
+                most = most.max(loss);
             }
             -least <= WRONG * most
-        })
+        };
+        let inward = |value: f64, bounds: &Interval| match value == bounds.lower {
+            true => 1.0,
+            false => -1.0,
+        };
+        let controls = self.structure.fixed.iter().all(|fixed| {
+            let bounds = &self.formulation.controls[fixed.control].bounds;
+            let side = inward(fixed.value, bounds);
+            holds(fixed.segment, &|k| {
+                side * slope[self.layout.control(k, fixed.control)]
+            })
+        });
+        let rows = self.structure.rows.iter().all(|fixed| {
+            let bounds = &self.formulation.path[fixed.row].bounds;
+            let side = inward(fixed.value, bounds);
+            holds(fixed.segment, &|k| {
+                -side * iterate.multipliers[self.layout.path(k, fixed.row)]
+            })
+        });
+        controls && rows
     }
 
     /// The gradient of the Lagrangian, bounds left out.

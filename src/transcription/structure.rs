@@ -16,6 +16,8 @@ pub struct Structure {
     pub knots: Vec<Knot>,
     /// Controls that have one value in a whole segment.
     pub fixed: Vec<FixedControl>,
+    /// Path rows that have one value in a whole segment.
+    pub rows: Vec<FixedRow>,
     /// States without their term of highest degree in a segment.
     pub smooth: Vec<SmoothState>,
 }
@@ -36,6 +38,17 @@ pub struct FixedControl {
     pub segment: usize,
     /// Control.
     pub control: usize,
+    /// Its value.
+    pub value: f64,
+}
+
+/// A path row of one value in a segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedRow {
+    /// Segment.
+    pub segment: usize,
+    /// Path row.
+    pub row: usize,
     /// Its value.
     pub value: f64,
 }
@@ -70,7 +83,10 @@ pub(super) struct LinearRow {
 impl Structure {
     /// Whether nothing is known.
     pub fn is_empty(&self) -> bool {
-        self.knots.is_empty() && self.fixed.is_empty() && self.smooth.is_empty()
+        self.knots.is_empty()
+            && self.fixed.is_empty()
+            && self.rows.is_empty()
+            && self.smooth.is_empty()
     }
 
     /// Pairs of knots, by their places in the list, with one segment between them.
@@ -80,7 +96,7 @@ impl Structure {
     }
 
     /// Number of rows that it adds.
-    pub(super) fn rows(&self) -> usize {
+    pub(super) fn row_count(&self) -> usize {
         self.smooth.len() + self.neighbours().count()
     }
 

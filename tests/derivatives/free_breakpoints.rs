@@ -5,7 +5,7 @@ use ffsm_ipopt::collocation::Mesh;
 use ffsm_ipopt::nlp::Nlp;
 use ffsm_ipopt::ocp::{Ends, Formulation, Interval, Ocp, Point, Quantity};
 use ffsm_ipopt::transcription::{
-    FixedControl, Knot, Patterns, SmoothState, Structure, Transcription,
+    FixedControl, FixedRow, Knot, Patterns, SmoothState, Structure, Transcription,
 };
 
 /// Everything depends on everything but the time.
@@ -63,6 +63,11 @@ fn structure() -> Structure {
             segment: 0,
             control: 0,
             value: 0.7,
+        }],
+        rows: vec![FixedRow {
+            segment: 3,
+            row: 0,
+            value: 0.2,
         }],
         smooth: vec![SmoothState {
             segment: 1,
@@ -223,6 +228,8 @@ fn a_structure_bounds_controls_and_breakpoints_and_keeps_ends_smooth() {
     assert!(end(&cube).0.abs() > 1e-4);
     let (mut least, mut most) = (vec![0.0; size.constraints], vec![0.0; size.constraints]);
     nlp.constraint_bounds(&mut least, &mut most);
+    let path = layout.path(7, 0);
+    assert_eq!((least[path], most[path]), (0.2, 0.2));
     let row = layout.structural_row(1);
     assert!(least[row] > 0.0 && most[row] == f64::INFINITY);
 }

@@ -17,8 +17,8 @@ use crate::ocp::Interval;
 use crate::refine::{
     Assessment, Decision, Facts, Record, Refined, RefinementLaw, Settings,
 };
-use crate::transcription::{FixedControl, Knot, SmoothState, Structure};
-use switches::Found;
+use crate::transcription::{FixedControl, FixedRow, Knot, SmoothState, Structure};
+use switches::{Found, What};
 
 /// Points of a segment in which nothing is to be resolved.
 const FEWEST: usize = 3;
@@ -78,6 +78,8 @@ struct Draft {
     points: Vec<usize>,
     /// Of each segment and control, the value that it is fixed to.
     fixed: Vec<Vec<Option<f64>>>,
+    /// The same of each path row.
+    rows: Vec<Vec<Option<f64>>>,
 }
 
 impl Law<'_> {
@@ -111,16 +113,20 @@ impl Law<'_> {
             breakpoints: vec![breakpoints[0]],
             points: Vec::new(),
             fixed: Vec::new(),
+            rows: Vec::new(),
         };
         for pair in breakpoints.windows(2) {
             let (from, to) = (pair[0].0, pair[1].0);
             let middle = 0.5 * (from + to);
-            let on = |control: usize| {
+            let on = |what: What| {
                 let mut arcs = found.arcs.iter();
-                let arc = arcs.find(|a| a.control == control && a.from < middle && middle < a.to);
+                let arc = arcs.find(|a| a.what == what && a.from < middle && middle < a.to);
                 arc.map(|arc| arc.value)
             };
-            let fixed: Vec<_> = (0..assessment.solution.controls).map(on).collect();
+            let controls = 0..assessment.solution.controls;
+            let fixed: Vec<_> = controls.map(|j| on(What::Control(j))).collect();
+            let paths = 0..facts.formulation.path.len();
+            let rows: Vec<_> = paths.map(|p| on(What::Row(p))).collect();
             let points = match to - from < LAYER * narrowest {
                 true => FEWEST,
                 false => degrees::needed(
@@ -140,6 +146,7 @@ impl Law<'_> {
                 });
                 draft.points.push(points.div_ceil(parts).max(FEWEST));
                 draft.fixed.push(fixed.clone());
+                draft.rows.push(rows.clone());
             }
         }
         let decisions = vec![Decision::Divide(2); mesh.segments()];
@@ -163,6 +170,7 @@ impl Law<'_> {
             breakpoints: vec![(0.0, None)],
             points: Vec::new(),
             fixed: Vec::new(),
+            rows: Vec::new(),
         };
         let mut decisions = Vec::new();
         for s in 0..old.segments() {
@@ -172,6 +180,13 @@ impl Law<'_> {
                 .map(|control| {
                     let mut fixed = structure.fixed.iter();
                     let fixed = fixed.find(|f| f.segment == s && f.control == control);
+                    fixed.map(|fixed| fixed.value)
+                })
+                .collect();
+            let rows: Vec<Option<f64>> = (0..facts.formulation.path.len())
+                .map(|row| {
+                    let mut fixed = structure.rows.iter();
+                    let fixed = fixed.find(|f| f.segment == s && f.row == row);
                     fixed.map(|fixed| fixed.value)
                 })
                 .collect();
@@ -201,6 +216,7 @@ impl Law<'_> {
                 });
                 draft.points.push(points);
                 draft.fixed.push(fixed.clone());
+                draft.rows.push(rows.clone());
             }
         }
         draft.finish(facts, decisions)
@@ -239,9 +255,20 @@ impl Draft {
                 }));
             }
         }
+        let mut rows = Vec::new();
+        for (segment, values) in self.rows.iter().enumerate() {
+            for (row, value) in values.iter().enumerate() {
+                rows.extend(value.map(|value| FixedRow {
+                    segment,
+                    row,
+                    value,
+                }));
+            }
+        }
         let structure = Structure {
             knots,
             fixed,
+            rows,
             smooth: self.smooth(facts),
         };
         let mesh = Mesh::new(at, &self.points).ok()?;
@@ -259,10 +286,11 @@ impl Draft {
             let meets = |&control: &usize| pair[0][control].is_none() && pair[1][control].is_some();
             let controls: Vec<usize> = (0..pair[0].len()).filter(meets).collect();
             let free = pair[0].iter().filter(|value| value.is_none()).count();
+            let bound = self.rows[segment].iter().flatten().count();
             let driven = facts.drivers.iter().enumerate();
             let driven = driven.filter(|(_, drivers)| controls.iter().any(|c| drivers.contains(c)));
             let states: Vec<usize> = driven.map(|(state, _)| state).collect();
-            if states.len() <= free && self.points[segment] > FEWEST {
+            if states.len() + bound <= free && self.points[segment] > FEWEST {
                 smooth.extend(states.into_iter().map(|state| SmoothState { segment, state }));
             }
         }

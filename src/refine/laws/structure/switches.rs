@@ -11,6 +11,10 @@ const NEAR: f64 = 0.02;
 const LEAST_RUN: usize = 2;
 /// Most points in a row between two arcs on different bounds that are one switch.
 const MOST_BETWEEN: usize = 2;
+/// Part of their windows within which switches are one.
+const SAME: f64 = 0.25;
+/// Points of an arc inside after which a control that has left a bound has settled.
+const SETTLED: usize = 2;
 /// Window of the end of a layer, as multiples of its estimate.
 const LAYER: (f64, f64) = (0.05, 4.0);
 /// Longest layer, as a part of the segment it is in.
@@ -25,10 +29,17 @@ pub(super) struct Switch {
     pub window: Interval,
 }
 
-/// A control on a bound, from one instant to another, fractions of the duration.
+/// What can be on a bound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum What {
+    Control(usize),
+    Row(usize),
+}
+
+/// A control or a row on a bound, from one instant to another, fractions of the duration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Arc {
-    pub control: usize,
+    pub what: What,
     pub value: f64,
     pub from: f64,
     pub to: f64,
@@ -51,25 +62,116 @@ struct Run {
 
 /// The structure of the solution.
 pub(super) fn find(assessment: &Assessment<'_>, facts: &Facts<'_>) -> Found {
-    let solution = assessment.solution;
     let mut found = Found::default();
-    for control in 0..solution.controls {
-        let bounds = facts.formulation.controls[control].bounds;
-        if !(bounds.lower.is_finite() && bounds.upper.is_finite()) || bounds.is_fixed() {
-            continue;
-        }
-        let runs = runs(solution, control, &bounds);
-        of_values(solution, control, &bounds, &runs, &mut found);
+    let mut layers = Found::default();
+    for signal in signals(assessment.solution, facts) {
+        let runs = runs(&signal);
+        of_values(assessment.solution, &signal, &runs, &mut found);
         let inside = |run: Option<&Run>| run.is_some_and(|run| run.side == 0);
-        if inside(runs.first()) {
-            layer(assessment, facts, control, false, &mut found);
+        let What::Control(control) = signal.what else {
+            continue;
+        };
+        let both = signal.bounds.lower.is_finite() && signal.bounds.upper.is_finite();
+        if both && inside(runs.first()) {
+            layer(assessment, facts, control, false, &mut layers);
         }
-        if inside(runs.last()) {
-            layer(assessment, facts, control, true, &mut found);
+        if both && inside(runs.last()) {
+            layer(assessment, facts, control, true, &mut layers);
         }
     }
+    together(&mut found);
+    found.switches.append(&mut layers.switches);
+    found.arcs.append(&mut layers.arcs);
     found.switches.sort_by(|a, b| a.at.total_cmp(&b.at));
     found
+}
+
+/// A control or a row with its bounds and its values at the points.
+struct Signal {
+    what: What,
+    bounds: Interval,
+    values: Vec<f64>,
+}
+
+impl Signal {
+    /// The size that closeness to a bound is a part of.
+    fn range(&self) -> f64 {
+        let all = || self.values.iter().copied();
+        let width = self.bounds.upper - self.bounds.lower;
+        match width.is_finite() {
+            true => width,
+            false => all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min),
+        }
+    }
+}
+
+/// Controls and rows that depend on controls, as far as they have bounds.
+fn signals(solution: &Discretization, facts: &Facts<'_>) -> Vec<Signal> {
+    let formulation = facts.formulation;
+    let points = 0..solution.mesh.points();
+    let times = solution.times();
+    let controls = formulation.controls.iter().enumerate().map(|(j, control)| {
+        let values = points.clone().map(|k| solution.control(k)[j]);
+        (What::Control(j), control.bounds, values.collect::<Vec<_>>())
+    });
+    let jumping = facts.jumping_rows.iter().any(|&jumps| jumps);
+    let rows: Vec<Vec<f64>> = match jumping {
+        false => Vec::new(),
+        true => points
+            .clone()
+            .map(|k| {
+                let (x, u) = (solution.state(k), solution.control(k));
+                facts.rates(solution, x, u, times[k]).1
+            })
+            .collect(),
+    };
+    let paths = formulation.path.iter().enumerate();
+    let paths = paths.filter(|(p, _)| facts.jumping_rows[*p]);
+    let paths = paths.map(|(p, row)| {
+        let values = rows.iter().map(|row| row[p]).collect();
+        (What::Row(p), row.bounds, values)
+    });
+    controls
+        .chain(paths)
+        .filter(|(_, bounds, _)| !bounds.is_free() && !bounds.is_fixed())
+        .map(|(what, bounds, values)| Signal {
+            what,
+            bounds,
+            values,
+        })
+        .collect()
+}
+
+/// Makes one of switches so near each other that the mesh does not tell them apart.
+fn together(found: &mut Found) {
+    found.switches.sort_by(|a, b| a.at.total_cmp(&b.at));
+    let mut groups: Vec<Vec<Switch>> = Vec::new();
+    for switch in std::mem::take(&mut found.switches) {
+        let width = switch.window.upper - switch.window.lower;
+        match groups.last_mut() {
+            Some(group) if switch.at - group[0].at < SAME * width => group.push(switch),
+            _ => groups.push(vec![switch]),
+        }
+    }
+    for group in groups {
+        let at = group.iter().map(|s| s.at).sum::<f64>() / group.len() as f64;
+        let bound = |pick: fn(&Switch) -> f64, better: fn(f64, f64) -> f64, from: f64| {
+            group.iter().map(pick).fold(from, better)
+        };
+        let lower = bound(|s| s.window.lower, f64::min, 1.0);
+        let upper = bound(|s| s.window.upper, f64::max, 0.0);
+        for arc in &mut found.arcs {
+            for end in [&mut arc.from, &mut arc.to] {
+                if group.iter().any(|s| s.at == *end) {
+                    *end = at;
+                }
+            }
+        }
+        found.switches.push(Switch {
+            at,
+            window: Interval::new(lower, upper),
+        });
+    }
 }
 
 fn merged(runs: Vec<Run>) -> Vec<Run> {
@@ -83,11 +185,11 @@ fn merged(runs: Vec<Run>) -> Vec<Run> {
     merged
 }
 
-/// Runs of `control`, those too short to tell anything being part of what is beside them.
-fn runs(solution: &Discretization, control: usize, bounds: &Interval) -> Vec<Run> {
-    let near = NEAR * (bounds.upper - bounds.lower);
-    let each = (0..solution.mesh.points()).map(|k| {
-        let u = solution.control(k)[control];
+/// Runs of `signal`, those too short to tell anything being part of what is beside them.
+fn runs(signal: &Signal) -> Vec<Run> {
+    let near = NEAR * signal.range();
+    let bounds = &signal.bounds;
+    let each = signal.values.iter().enumerate().map(|(k, &u)| {
         let side = i8::from(u >= bounds.upper - near) - i8::from(u <= bounds.lower + near);
         Run {
             side,
@@ -125,11 +227,11 @@ fn runs(solution: &Discretization, control: usize, bounds: &Interval) -> Vec<Run
 /// Switches and arcs that `runs` show.
 fn of_values(
     solution: &Discretization,
-    control: usize,
-    bounds: &Interval,
+    signal: &Signal,
     runs: &[Run],
     found: &mut Found,
 ) {
+    let (bounds, values) = (&signal.bounds, &signal.values);
     let value = |side: i8| if side > 0 { bounds.upper } else { bounds.lower };
     let weights = quadrature(solution);
     let mut ends = vec![0.0];
@@ -158,11 +260,11 @@ fn of_values(
                     true => {
                         // The impulse of the points between is that of a jump.
                         let (a, b) = (value(run.side), value(next.side));
-                        let part = |k: usize| weights[k] * (solution.control(k)[control] - b);
+                        let part = |k: usize| weights[k] * (values[k] - b);
                         let between: f64 = (run.last + 1..next.first).map(part).sum();
                         ends[run.last + 1] + between / (a - b)
                     }
-                    false => ends[run.last + 1],
+                    false => left(&ends, &weights, values, &run, next),
                 };
                 let window = window(run.last, next.first);
                 let room = 0.05 * (window.upper - window.lower);
@@ -173,7 +275,7 @@ fn of_values(
         };
         if run.side != 0 {
             found.arcs.push(Arc {
-                control,
+                what: signal.what,
                 value: value(run.side),
                 from,
                 to,
@@ -181,6 +283,27 @@ fn of_values(
         }
         from = to;
         i += 1 + skip;
+    }
+}
+
+/// When a bound is left, or reached: as if the values beside it were those of a jump to where they
+/// settle, which is late or early by less than two points where there is none.
+fn left(ends: &[f64], weights: &[f64], values: &[f64], run: &Run, next: &Run) -> f64 {
+    let here = ends[run.last + 1];
+    let inner = if run.side == 0 { run } else { next };
+    if inner.last + 1 - inner.first <= 2 * SETTLED {
+        return here;
+    }
+    if run.side != 0 {
+        let (a, b) = (values[run.last], values[next.first + SETTLED]);
+        let points = next.first..next.first + SETTLED;
+        let sum: f64 = points.map(|k| weights[k] * (values[k] - b)).sum();
+        here + sum / (a - b)
+    } else {
+        let (a, b) = (values[run.last - SETTLED], values[next.first]);
+        let points = run.last + 1 - SETTLED..run.last + 1;
+        let sum: f64 = points.map(|k| weights[k] * (values[k] - a)).sum();
+        here - sum / (b - a)
     }
 }
 
@@ -224,7 +347,7 @@ fn layer(
     let rates = |value: f64| {
         let mut u: Vec<f64> = solution.control(node.min(mesh.points() - 1)).to_vec();
         u[control] = value;
-        facts.rates(solution, x, &u, t)
+        facts.rates(solution, x, &u, t).0
     };
     let (low, high) = (rates(bounds.lower), rates(bounds.upper));
     let mut best: Option<(f64, f64)> = None;
@@ -256,7 +379,7 @@ fn layer(
         window: Interval::new(a.min(b), a.max(b)),
     });
     found.arcs.push(Arc {
-        control,
+        what: What::Control(control),
         value,
         from: end.min(at),
         to: end.max(at),
