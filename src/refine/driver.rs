@@ -7,8 +7,8 @@ use super::start::straight;
 use super::transfer::resample;
 use super::violation::worst_of_each;
 use super::{
-    Assessment, CutShort, Facts, Outcome, Record, Settings, SolveError, Start,
-    Verdict, quadrature_error, start_check,
+    Assessment, CutShort, Facts, Outcome, Record, Settings, SolveError, Start, Verdict,
+    quadrature_error, start_check,
 };
 use crate::largest::largest;
 use crate::nlp::{self, Control, Deadline, Progress, Statistics, Status};
@@ -221,7 +221,8 @@ impl<O: Ocp> Refinement<'_, O> {
                     let failed = !outcome.status.is_solved();
                     let worse = |best: &Outcome| {
                         !outcome.converged
-                            && (best.converged
+                            && (fell
+                                || best.converged
                                 || failed && (outcome.cut_short.is_some() || best.is_accurate()))
                     };
                     return Ok(match best.take_if(|best| worse(best)) {

@@ -1,10 +1,10 @@
 //! The solve on one mesh: in units of the problem's sizes, warm where the mesh before allows it, and
 //! again where its solution contradicts what was supposed of it.
 
+use super::Start;
 use super::assess::Assessed;
 use super::conditioning::Conditioning;
 use super::transfer::{Duals, saved_layout};
-use super::Start;
 use crate::nlp::{
     self, Control, Deadline, Iterate, Progress, Scaled, Statistics, Status, Units, ipopt,
 };

@@ -65,14 +65,16 @@ impl Grid {
     /// segment, the derivative of the width.
     pub fn sides(&self, k: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let s = self.segments[k];
-        self.knots.iter().filter_map(move |&(breakpoint, variable)| {
-            let side = match breakpoint {
-                b if b == s => -1.0,
-                b if b == s + 1 => 1.0,
-                _ => return None,
-            };
-            Some((variable, side))
-        })
+        self.knots
+            .iter()
+            .filter_map(move |&(breakpoint, variable)| {
+                let side = match breakpoint {
+                    b if b == s => -1.0,
+                    b if b == s + 1 => 1.0,
+                    _ => return None,
+                };
+                Some((variable, side))
+            })
     }
 
     /// The mesh with its free breakpoints as in `x`.

@@ -36,11 +36,7 @@ enum Term {
         time: Option<usize>,
     },
     /// −side·(T/2)·f_row: by a free breakpoint at the start (−1) or the end (+1) of the segment.
-    RateByKnot {
-        point: usize,
-        row: usize,
-        side: f64,
-    },
+    RateByKnot { point: usize, row: usize, side: f64 },
     /// −side·(T/2)·(weight of the rule)·g_output.
     IntegrandByKnot {
         point: usize,

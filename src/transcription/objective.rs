@@ -6,10 +6,7 @@ use super::jacobian::{end_column, first_slot};
 use crate::ocp::Ocp;
 
 /// Objective (25): terminal cost and quadrature of the running cost.
-pub(super) fn objective<O: Ocp>(
-    duration: f64,
-    evaluation: &Evaluation<'_, O>,
-) -> f64 {
+pub(super) fn objective<O: Ocp>(duration: f64, evaluation: &Evaluation<'_, O>) -> f64 {
     let cost = evaluation.node.cost();
     let quadrature = &evaluation.grid.quadrature;
     let integral: f64 = quadrature

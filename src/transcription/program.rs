@@ -297,12 +297,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Undefined> {
         self.need_all(x)?;
         let duration = self.evaluation.duration(x);
-        objective::gradient(
-            duration,
-            &self.layout,
-            &self.evaluation,
-            gradient,
-        );
+        objective::gradient(duration, &self.layout, &self.evaluation, gradient);
         Ok(())
     }
 

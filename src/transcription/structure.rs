@@ -74,7 +74,6 @@ impl Knot {
 /// A row that structure adds: bounds on a weighted sum of variables.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LinearRow {
-    pub name: &'static str,
     /// (variable, weight).
     pub terms: Vec<(usize, f64)>,
     pub bounds: Interval,
@@ -115,7 +114,6 @@ impl Structure {
             let mut terms: Vec<_> = inner.map(|(j, l)| (state(start + j, i), -l)).collect();
             terms.push((state(mesh.start(s + 1), i), 1.0));
             LinearRow {
-                name: "end of a segment without a bend",
                 terms,
                 bounds: Interval::fixed(0.0),
             }
@@ -124,7 +122,6 @@ impl Structure {
             let width = |knot: &Knot| knot.window.upper - knot.window.lower;
             let least = LEAST_WIDTH * width(&self.knots[i]).min(width(&self.knots[i + 1]));
             LinearRow {
-                name: "width of a segment",
                 terms: vec![(knot(i), -1.0), (knot(i + 1), 1.0)],
                 bounds: Interval::new(least, f64::INFINITY),
             }

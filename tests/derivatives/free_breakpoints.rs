@@ -198,21 +198,20 @@ fn a_structure_bounds_controls_and_breakpoints_and_keeps_ends_smooth() {
     assert_eq!(lower[layout.control(2, 0)], f64::NEG_INFINITY);
     let knot = layout.knot(1);
     assert_eq!((lower[knot], upper[knot]), (0.25, 0.6));
-    assert_eq!(
-        nlp.variable_name(knot),
-        "breakpoint, segment 3, point 1"
-    );
+    assert_eq!(nlp.variable_name(knot), "breakpoint, segment 3, point 1");
     // The segment between the two free breakpoints keeps a width; its state y is of degree 2.
     let mesh = nlp.mesh().clone();
     let sampled = |power: i32| {
-        let mut x = nlp.pack(&ffsm_ipopt::transcription::Discretization::sample(
-            mesh.clone(),
-            1.0,
-            2,
-            1,
-            |fraction, x, _| x[1] = fraction.powi(power),
-        )
-        .with(0.0, vec![0.0]));
+        let mut x = nlp.pack(
+            &ffsm_ipopt::transcription::Discretization::sample(
+                mesh.clone(),
+                1.0,
+                2,
+                1,
+                |fraction, x, _| x[1] = fraction.powi(power),
+            )
+            .with(0.0, vec![0.0]),
+        );
         x[layout.knot(0)] = 0.2;
         x
     };
@@ -221,10 +220,16 @@ fn a_structure_bounds_controls_and_breakpoints_and_keeps_ends_smooth() {
     let mut end = |x: &[f64]| {
         nlp.new_point();
         nlp.constraints(x, &mut rows).unwrap();
-        (rows[layout.structural_row(0)], rows[layout.structural_row(1)])
+        (
+            rows[layout.structural_row(0)],
+            rows[layout.structural_row(1)],
+        )
     };
     let (bend, width) = end(&square);
-    assert!(bend.abs() < 1e-14 && (width - 0.2).abs() < 1e-14, "{bend} {width}");
+    assert!(
+        bend.abs() < 1e-14 && (width - 0.2).abs() < 1e-14,
+        "{bend} {width}"
+    );
     assert!(end(&cube).0.abs() > 1e-4);
     let (mut least, mut most) = (vec![0.0; size.constraints], vec![0.0; size.constraints]);
     nlp.constraint_bounds(&mut least, &mut most);

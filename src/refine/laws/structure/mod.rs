@@ -14,9 +14,7 @@ mod switches;
 use super::adaptive;
 use crate::collocation::{Mesh, MeshError};
 use crate::ocp::Interval;
-use crate::refine::{
-    Assessment, Decision, Facts, Record, Refined, RefinementLaw, Settings,
-};
+use crate::refine::{Assessment, Decision, Facts, Record, Refined, RefinementLaw, Settings};
 use crate::transcription::{FixedControl, FixedRow, Knot, SmoothState, Structure};
 use switches::{Found, What};
 
@@ -60,14 +58,14 @@ impl RefinementLaw for Law<'_> {
                 false => None,
             };
         }
-        match assessment.structure.is_empty() {
+        let next = match assessment.structure.is_empty() {
             true => {
                 let found = switches::find(assessment, facts);
                 self.structured(assessment, facts, &found)
             }
             false => self.refined(assessment, facts),
-        }
-        .or_else(|| paper.refine(assessment))
+        };
+        next.or_else(|| paper.refine(assessment))
     }
 }
 
@@ -291,7 +289,11 @@ impl Draft {
             let driven = driven.filter(|(_, drivers)| controls.iter().any(|c| drivers.contains(c)));
             let states: Vec<usize> = driven.map(|(state, _)| state).collect();
             if states.len() + bound <= free && self.points[segment] > FEWEST {
-                smooth.extend(states.into_iter().map(|state| SmoothState { segment, state }));
+                smooth.extend(
+                    states
+                        .into_iter()
+                        .map(|state| SmoothState { segment, state }),
+                );
             }
         }
         smooth

@@ -225,12 +225,7 @@ fn runs(signal: &Signal) -> Vec<Run> {
 }
 
 /// Switches and arcs that `runs` show.
-fn of_values(
-    solution: &Discretization,
-    signal: &Signal,
-    runs: &[Run],
-    found: &mut Found,
-) {
+fn of_values(solution: &Discretization, signal: &Signal, runs: &[Run], found: &mut Found) {
     let (bounds, values) = (&signal.bounds, &signal.values);
     let value = |side: i8| if side > 0 { bounds.upper } else { bounds.lower };
     let weights = quadrature(solution);
