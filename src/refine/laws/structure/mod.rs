@@ -24,6 +24,8 @@ const FEWEST: usize = 3;
 const LAYER: f64 = 0.5;
 /// Most points a segment gets at once.
 const MOST_MORE: usize = 6;
+/// Most points of a segment with a free control, and of one without, on the first mesh with a structure.
+const FIRST: (usize, usize) = (14, 5);
 /// Most switches for which a structure is tried.
 const MOST_SWITCHES: usize = 40;
 /// Part of the tolerance that a raised degree aims at.
@@ -135,17 +137,16 @@ impl Law<'_> {
                     FEWEST,
                 ),
             };
-            let parts = points.div_ceil(settings.max_points.max(1));
-            for part in 1..=parts {
-                let cut = from + (to - from) * part as f64 / parts as f64;
-                draft.breakpoints.push(match part == parts {
-                    true => pair[1],
-                    false => (cut, None),
-                });
-                draft.points.push(points.div_ceil(parts).max(FEWEST));
-                draft.fixed.push(fixed.clone());
-                draft.rows.push(rows.clone());
-            }
+            // The mesh before is too coarse to tell high degrees: more of them are for the next.
+            let free = fixed.iter().filter(|value| value.is_none()).count();
+            let most = match free > rows.iter().flatten().count() {
+                true => FIRST.0,
+                false => FIRST.1,
+            };
+            draft.breakpoints.push(pair[1]);
+            draft.points.push(points.min(most).min(settings.max_points));
+            draft.fixed.push(fixed);
+            draft.rows.push(rows);
         }
         let decisions = vec![Decision::Divide(2); mesh.segments()];
         draft.finish(facts, decisions)
@@ -282,7 +283,12 @@ impl Draft {
         let mut smooth = Vec::new();
         for (segment, pair) in self.fixed.windows(2).enumerate() {
             let meets = |&control: &usize| pair[0][control].is_none() && pair[1][control].is_some();
-            let controls: Vec<usize> = (0..pair[0].len()).filter(meets).collect();
+            if !(0..pair[0].len()).any(|control| meets(&control)) {
+                continue;
+            }
+            // The others may jump with it: they go on along another arc.
+            let free = |&control: &usize| pair[0][control].is_none();
+            let controls: Vec<usize> = (0..pair[0].len()).filter(free).collect();
             let free = pair[0].iter().filter(|value| value.is_none()).count();
             let bound = self.rows[segment].iter().flatten().count();
             let driven = facts.drivers.iter().enumerate();
