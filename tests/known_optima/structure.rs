@@ -41,7 +41,8 @@ fn the_switch_of_a_minimum_time_motion_is_placed_by_the_solve() {
     assert_eq!(outcome.iterate.multipliers.len(), points * n);
 }
 
-/// ∫x² dt, |u| ≤ 1, from (1, 0): bang arcs, then a singular one at x = 0 where u = 0.
+/// ½∫(x² + ẋ²) dt over 5 s with ẍ = u, |u| ≤ 1, from (0, 1): a bang arc, then a singular one along
+/// x + ẋ = 0.
 struct Singular;
 
 impl Ocp for Singular {
@@ -68,8 +69,7 @@ impl Ocp for Singular {
     }
 }
 
-/// The bang arc of the classic singular problem with ½∫(x² + v²) from (0, 1) ends at 1.41376409 of 5 s,
-/// and the cost is 0.37699193.
+/// The bang arc ends at 1.41376409 s, and the cost is 0.37699193.
 #[test]
 fn a_singular_arc_follows_a_bang_arc() {
     let outcome = solve(&Singular, &by_structure(refined(10, 5, 1e-6, 6)));

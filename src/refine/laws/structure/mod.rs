@@ -278,23 +278,31 @@ impl Draft {
         })
     }
 
-    /// States whose rates depend on a control that is free in a segment and on a bound in the next.
+    /// States that a free control drives, in segments at whose end a control comes to a bound, and in
+    /// the last one where they are free at the end.
     fn smooth(&self, facts: &Facts<'_>) -> Vec<SmoothState> {
         let mut smooth = Vec::new();
-        for (segment, pair) in self.fixed.windows(2).enumerate() {
-            let meets = |&control: &usize| pair[0][control].is_none() && pair[1][control].is_some();
-            if !(0..pair[0].len()).any(|control| meets(&control)) {
+        let last = self.fixed.len() - 1;
+        for (segment, fixed) in self.fixed.iter().enumerate() {
+            let comes_to_bound = |control: usize| {
+                let next = self.fixed.get(segment + 1);
+                fixed[control].is_none() && next.is_some_and(|next| next[control].is_some())
+            };
+            let ends = segment < last && (0..fixed.len()).any(comes_to_bound);
+            if !ends && segment < last || self.points[segment] <= FEWEST {
                 continue;
             }
-            // The others may jump with it: they go on along another arc.
-            let free = |&control: &usize| pair[0][control].is_none();
-            let controls: Vec<usize> = (0..pair[0].len()).filter(free).collect();
-            let free = pair[0].iter().filter(|value| value.is_none()).count();
+            // Other controls may jump with it: they go on along another arc.
+            let free: Vec<usize> = (0..fixed.len()).filter(|&j| fixed[j].is_none()).collect();
             let bound = self.rows[segment].iter().flatten().count();
-            let driven = facts.drivers.iter().enumerate();
-            let driven = driven.filter(|(_, drivers)| controls.iter().any(|c| drivers.contains(c)));
-            let states: Vec<usize> = driven.map(|(state, _)| state).collect();
-            if states.len() + bound <= free && self.points[segment] > FEWEST {
+            let is_driven = |state: &usize| {
+                let drivers = &facts.drivers[*state];
+                let open = !facts.formulation.terminal[*state].is_fixed();
+                free.iter().any(|j| drivers.contains(j)) && (ends || open)
+            };
+            let states = (0..facts.drivers.len()).filter(is_driven);
+            let states: Vec<usize> = states.collect();
+            if states.len() + bound <= free.len() {
                 smooth.extend(
                     states
                         .into_iter()
