@@ -31,6 +31,10 @@ const WILD: f64 = 1.0;
 const GROWING_WILDLY: usize = 2;
 const WILD_GROWTH: f64 = 2.0;
 
+/// Part of the error before to which a mesh with a structure has to bring it: the right structure does
+/// so by decades.
+const STRUCTURE_PROGRESS: f64 = 0.2;
+
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
@@ -152,7 +156,9 @@ impl<O: Ocp> Refinement<'_, O> {
             let stopped = matches!(solved.status, Status::Interrupted | Status::TimeLimit);
             let fell = !structure.is_empty()
                 && !stopped
-                && !(solved.status.is_solved() && solved.arcs_hold);
+                && !(solved.status.is_solved()
+                    && solved.arcs_hold
+                    && self.gains(&assessed, previous.as_ref()));
             structure_failed |= fell;
             if !fell && self.diverges(&records) {
                 records[iteration - 1].verdict = Verdict::Diverging;
@@ -232,6 +238,13 @@ impl<O: Ocp> Refinement<'_, O> {
                 }
             }
         }
+    }
+
+    /// Whether a mesh with a structure is as good as it should be.
+    fn gains(&self, assessed: &Assessed, previous: Option<&Previous>) -> bool {
+        let before = previous.map_or(f64::INFINITY, |old| old.assessed.errors.max());
+        let most = self.settings.tolerance.max(STRUCTURE_PROGRESS * before);
+        assessed.errors.max() <= most
     }
 
     /// Whether no mesh has a smaller error than the first, far above the tolerance, and the cost has

@@ -23,6 +23,9 @@ const ROUGH: f64 = 0.1;
 /// The barrier parameter of a mesh with a structure, whose bounds are others than those before.
 const STRUCTURE_BARRIER: f64 = 1e-4;
 
+/// Iterations after which a mesh with a structure is given up: with the right one it takes fewer.
+const STRUCTURE_ITERATIONS: u32 = 200;
+
 /// Ipopt's own barrier parameter at a cold start.
 const LARGEST_BARRIER: f64 = 0.1;
 
@@ -92,8 +95,10 @@ impl<O: Ocp> MeshSolver<'_, O> {
             for (i, knot) in structure.knots.iter().enumerate() {
                 units.variables[program.layout().knot(i)] = knot.unit();
             }
-            if !structure.is_empty() && settings.warm_start.is_some() {
-                settings.warm_start = Some(STRUCTURE_BARRIER);
+            if !structure.is_empty() {
+                let most = settings.max_iterations.min(STRUCTURE_ITERATIONS);
+                settings.max_iterations = most;
+                settings.warm_start = settings.warm_start.map(|_| STRUCTURE_BARRIER);
             }
             let mut solved =
                 self.solve(&mut program, &units, settings, iterate, statistics, monitor)?;
@@ -167,7 +172,9 @@ impl<O: Ocp> MeshSolver<'_, O> {
         let mut nlp_iterations = solution.statistics.iterations;
         let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
         let gave_up = !solution.status.is_solved() && !stopped;
-        if gave_up && settings.warm_start.take().is_some() {
+        // Where a structure fails, the law has another mesh.
+        let again = program.structure().is_empty();
+        if gave_up && again && settings.warm_start.take().is_some() {
             // Multipliers may mislead; the same trajectory without them has every chance of
             // a cold start.
             let spent = solution.statistics.total;

@@ -99,6 +99,11 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         &self.mesh
     }
 
+    /// What the mesh knows of the solution's arcs.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
     /// Quantities and bounds of the problem.
     pub fn formulation(&self) -> &Formulation {
         &self.formulation

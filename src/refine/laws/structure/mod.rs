@@ -65,7 +65,14 @@ impl RefinementLaw for Law<'_> {
                 let found = switches::find(assessment, facts);
                 self.structured(assessment, facts, &found)
             }
-            false => self.refined(assessment, facts),
+            false => {
+                // A better mesh may show switches that the first one did not.
+                let found = switches::find(assessment, facts);
+                match found.switches.len() > assessment.structure.knots.len() {
+                    true => self.structured(assessment, facts, &found),
+                    false => self.refined(assessment, facts),
+                }
+            }
         };
         next.or_else(|| paper.refine(assessment))
     }
