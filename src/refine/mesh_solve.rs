@@ -21,7 +21,7 @@ const ERROR_BARRIER: f64 = 1e-5;
 const ROUGH: f64 = 0.1;
 
 /// The barrier parameter of a mesh with a structure, whose bounds are others than those before.
-const STRUCTURE_BARRIER: f64 = 1e-4;
+const STRUCTURE_BARRIER: f64 = 1e-6;
 
 /// Iterations after which a mesh with a structure is given up: with the right one it takes fewer.
 const STRUCTURE_ITERATIONS: u32 = 200;

@@ -135,7 +135,8 @@ impl Law<'_> {
             let paths = 0..facts.formulation.path.len();
             let rows: Vec<_> = paths.map(|p| on(What::Row(p))).collect();
             let points = match to - from < LAYER * narrowest {
-                true => FEWEST,
+                true if fixed.iter().all(Option::is_some) => FEWEST,
+                true => FEWEST + 1,
                 false => degrees::needed(
                     assessment.trajectory,
                     (from, to),
