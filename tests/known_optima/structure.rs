@@ -6,6 +6,10 @@ use ffsm_ipopt::autodiff::Scalar;
 use ffsm_ipopt::ocp::{Formulation, Interval, Ocp, Point, Quantity};
 use ffsm_ipopt::refine::{Law, Settings};
 
+#[allow(dead_code)]
+#[path = "../../examples/free_flying_robot.rs"]
+mod free_flying_robot;
+
 fn by_structure(settings: Settings) -> Settings {
     Settings {
         law: Law::Structure,
@@ -82,6 +86,17 @@ fn a_singular_arc_follows_a_bang_arc() {
     let switch = 5.0 * outcome.trajectory.mesh.breakpoints()[1];
     assert!((switch - 1.413_764).abs() < 1e-3, "{switch}");
     assert!(outcome.trajectory.mesh.points() < 50);
+}
+
+/// Eight switches; jets 1 and 2, and 3 and 4, are on the bound of a row together.
+#[test]
+fn bang_off_bang_of_two_pairs_of_jets() {
+    let robot = free_flying_robot::Robot;
+    let outcome = solve(&robot, &by_structure(refined(10, 5, 1e-6, 6)));
+    assert!(outcome.converged && outcome.records.len() <= 4);
+    assert!(outcome.trajectory.mesh.points() <= 60);
+    let gap = outcome.objective / 7.910_154 - 1.0;
+    assert!(gap.abs() < 1e-6, "J = {:.8}", outcome.objective);
 }
 
 #[test]
