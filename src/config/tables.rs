@@ -15,7 +15,7 @@ use crate::ocp::Interval;
 use crate::problem::{
     ComponentKind, CostId, LimitId, Limits, Momentum, Preset, ProblemBuilder, Task,
 };
-use crate::refine::{self, ErrorMeasure, Method};
+use crate::refine::{self, ErrorMeasure, Law, Method};
 use crate::system;
 use std::time::Duration;
 
@@ -219,6 +219,7 @@ fn matrix(item: &Item<'_>) -> Result<Vec<Vec<f64>>, ConfigError> {
 pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), ConfigError> {
     let section = item.section(&[
         "method",
+        "law",
         "segments",
         "points",
         "tolerance",
@@ -237,6 +238,12 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         let name = item.text(&expected)?;
         let found = Method::ALL.into_iter().find(|method| method.name() == name);
         mesh.method = found.ok_or_else(|| item.error(quoted(name), &expected))?;
+    }
+    if let Some(item) = section.get("law") {
+        let expected = Law::ALL.map(|law| quoted(law.name())).join(" or ");
+        let name = item.text(&expected)?;
+        let found = Law::ALL.into_iter().find(|law| law.name() == name);
+        mesh.law = found.ok_or_else(|| item.error(quoted(name), &expected))?;
     }
     for (name, value, most) in [
         ("segments", &mut mesh.segments, MOST),

@@ -7,13 +7,13 @@ use super::start::straight;
 use super::transfer::resample;
 use super::violation::worst_of_each;
 use super::{
-    Assessment, CutShort, Outcome, Record, Refined, RefinementLaw, Settings, SolveError, Start,
-    Verdict, quadrature_error, start_check,
+    Assessment, CutShort, Facts, Outcome, Record, Settings, SolveError, Start, Verdict,
+    quadrature_error, start_check,
 };
 use crate::largest::largest;
 use crate::nlp::{self, Control, Deadline, Progress, Statistics, Status};
 use crate::ocp::Ocp;
-use crate::transcription::{Discretization, Patterns, integrals};
+use crate::transcription::{Discretization, Patterns, Structure, integrals};
 use std::fmt;
 use std::time::Instant;
 
@@ -30,6 +30,10 @@ const WILD: f64 = 1.0;
 /// low.
 const GROWING_WILDLY: usize = 2;
 const WILD_GROWTH: f64 = 2.0;
+
+/// Part of the error before to which a mesh with a structure has to bring it: the right structure does
+/// so by decades.
+const STRUCTURE_PROGRESS: f64 = 0.2;
 
 /// A step of the loop, for a monitor.
 #[derive(Debug, Clone, Copy)]
@@ -118,6 +122,10 @@ impl<O: Ocp> Refinement<'_, O> {
             deadline,
         };
         let assessor = Assessor::new(self.ocp, self.patterns, self.settings);
+        let formulation = self.ocp.formulation();
+        let facts = Facts::of(self.ocp, &formulation, self.patterns);
+        let mut structure = Structure::default();
+        let mut structure_failed = false;
         let mut previous: Option<Previous> = None;
         let mut best: Option<Outcome> = None;
         loop {
@@ -137,22 +145,45 @@ impl<O: Ocp> Refinement<'_, O> {
             let solved = solver.settled(
                 &mut conditioning,
                 &trajectory,
+                &structure,
                 before,
                 &mut statistics,
                 &mut on_step,
             )?;
             let assessed = assessor.assess(&solved, &conditioning);
             records.push(self.record(&solved, &assessed, began));
-            if self.diverges(&records) {
+            // A structure that does not hold is no reason to end: the mesh before counts.
+            let stopped = matches!(solved.status, Status::Interrupted | Status::TimeLimit);
+            let fell = !structure.is_empty()
+                && !stopped
+                && !(solved.status.is_solved()
+                    && solved.arcs_hold
+                    && self.gains(&assessed, previous.as_ref()));
+            structure_failed |= fell;
+            if !fell && self.diverges(&records) {
                 records[iteration - 1].verdict = Verdict::Diverging;
             }
-            let ended = !solved.status.is_solved()
+            let ended = !(solved.status.is_solved() || fell)
                 || records[iteration - 1].verdict == Verdict::Diverging
                 || law.is_last(&records);
             let next = (!ended)
                 .then(|| {
+                    let (solved, assessed, before) = match previous.as_ref().filter(|_| fell) {
+                        Some(old) => (&old.solved, &old.assessed, None),
+                        None => (&solved, &assessed, previous.as_ref()),
+                    };
                     let trajectory = conditioning.in_units(&solved.trajectory, self.settings);
-                    refined(&*law, &trajectory, &assessed, previous.as_ref())
+                    law.refine(&Assessment {
+                        trajectory: &trajectory,
+                        errors: &assessed.errors,
+                        before: before.map(|o| (&o.solved.trajectory.mesh, &o.assessed.errors)),
+                        violations: &assessed.removable,
+                        solution: &solved.trajectory,
+                        structure: &structure,
+                        structure_failed,
+                        facts: Some(&facts),
+                        tolerance: self.settings.tolerance,
+                    })
                 })
                 .flatten();
             records[iteration - 1].decisions = next
@@ -162,12 +193,12 @@ impl<O: Ocp> Refinement<'_, O> {
             let late = deadline.has_passed();
             let outcome = Outcome {
                 trajectory: solved.trajectory.clone(),
-                iterate: solved.iterate.clone(),
+                iterate: solved.plain_iterate(),
                 status: solved.status,
                 objective: solved.objective,
                 records: records.clone(),
                 discarded: Vec::new(),
-                converged: records[iteration - 1].verdict.is_converged(),
+                converged: !fell && records[iteration - 1].verdict.is_converged(),
                 cut_short: match solved.status {
                     Status::Interrupted => Some(CutShort::Interrupted),
                     Status::TimeLimit => Some(CutShort::OutOfTime),
@@ -181,11 +212,13 @@ impl<O: Ocp> Refinement<'_, O> {
             };
             match next.filter(|_| !halt && !late) {
                 Some(next) => {
+                    structure = next.structure;
+                    if let Some(old) = previous.as_ref().filter(|_| fell) {
+                        trajectory = resample(&old.solved.trajectory, next.mesh);
+                        continue;
+                    }
                     trajectory = resample(&solved.trajectory, next.mesh);
-                    previous = Some(Previous {
-                        solved,
-                        errors: assessed.errors,
-                    });
+                    previous = Some(Previous { solved, assessed });
                     if outcome.converged || best.as_ref().is_none_or(|best| !best.converged) {
                         best = Some(outcome);
                     }
@@ -194,7 +227,8 @@ impl<O: Ocp> Refinement<'_, O> {
                     let failed = !outcome.status.is_solved();
                     let worse = |best: &Outcome| {
                         !outcome.converged
-                            && (best.converged
+                            && (fell
+                                || best.converged
                                 || failed && (outcome.cut_short.is_some() || best.is_accurate()))
                     };
                     return Ok(match best.take_if(|best| worse(best)) {
@@ -204,6 +238,13 @@ impl<O: Ocp> Refinement<'_, O> {
                 }
             }
         }
+    }
+
+    /// Whether a mesh with a structure is as good as it should be.
+    fn gains(&self, assessed: &Assessed, previous: Option<&Previous>) -> bool {
+        let before = previous.map_or(f64::INFINITY, |old| old.assessed.errors.max());
+        let most = self.settings.tolerance.max(STRUCTURE_PROGRESS * before);
+        assessed.errors.max() <= most
     }
 
     /// Whether no mesh has a smaller error than the first, far above the tolerance, and the cost has
@@ -281,19 +322,4 @@ impl<O: Ocp> Refinement<'_, O> {
             resample(start, mesh)
         }
     }
-}
-
-/// The next mesh by `law`, `trajectory` being in the units of the errors.
-fn refined(
-    law: &dyn RefinementLaw,
-    trajectory: &Discretization,
-    assessed: &Assessed,
-    previous: Option<&Previous>,
-) -> Option<Refined> {
-    law.refine(&Assessment {
-        trajectory,
-        errors: &assessed.errors,
-        before: previous.map(|old| (&old.solved.trajectory.mesh, &old.errors)),
-        violations: &assessed.removable,
-    })
 }

@@ -1,14 +1,15 @@
 //! The solve on one mesh: in units of the problem's sizes, warm where the mesh before allows it, and
 //! again where its solution contradicts what was supposed of it.
 
+use super::Start;
+use super::assess::Assessed;
 use super::conditioning::Conditioning;
 use super::transfer::{Duals, saved_layout};
-use super::{Errors, Start};
 use crate::nlp::{
     self, Control, Deadline, Iterate, Progress, Scaled, Statistics, Status, Units, ipopt,
 };
 use crate::ocp::Ocp;
-use crate::transcription::{Discretization, Layout, Transcription};
+use crate::transcription::{Discretization, Layout, Structure, Transcription};
 
 /// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
 /// below it that the first barrier problem is the last, and costs are as exact as from a cold start.
@@ -18,6 +19,12 @@ const REFINED_BARRIER: f64 = 0.1;
 /// the solution a smaller barrier keeps the iterates at the wrong bounds.
 const ERROR_BARRIER: f64 = 1e-5;
 const ROUGH: f64 = 0.1;
+
+/// The barrier parameter of a mesh with a structure, whose bounds are others than those before.
+const STRUCTURE_BARRIER: f64 = 1e-6;
+
+/// Iterations after which a mesh with a structure is given up: with the right one it takes fewer.
+const STRUCTURE_ITERATIONS: u32 = 200;
 
 /// Ipopt's own barrier parameter at a cold start.
 const LARGEST_BARRIER: f64 = 0.1;
@@ -43,12 +50,21 @@ pub(super) struct Solved {
     pub status: Status,
     pub objective: f64,
     pub nlp_iterations: u32,
+    /// Whether no control is fixed on a bound that it had better leave.
+    pub arcs_hold: bool,
+}
+
+impl Solved {
+    /// Primal and dual values without what a structure adds.
+    pub fn plain_iterate(&self) -> Iterate {
+        self.layout.without_structure(&self.iterate)
+    }
 }
 
 /// What the mesh before leaves to the next.
 pub(super) struct Previous {
     pub solved: Solved,
-    pub errors: Errors,
+    pub assessed: Assessed,
 }
 
 impl<O: Ocp> MeshSolver<'_, O> {
@@ -57,6 +73,7 @@ impl<O: Ocp> MeshSolver<'_, O> {
         &self,
         conditioning: &mut Conditioning<'_, O>,
         trajectory: &Discretization,
+        structure: &Structure,
         previous: Option<&Previous>,
         statistics: &mut Statistics,
         monitor: &mut dyn FnMut(&Progress) -> Control,
@@ -65,11 +82,24 @@ impl<O: Ocp> MeshSolver<'_, O> {
         for attempt in 1.. {
             let mesh = trajectory.mesh.clone();
             let formulation = conditioning.formulation();
-            let mut program =
-                Transcription::within(self.ocp, formulation, conditioning.patterns(), mesh);
+            let mut program = Transcription::structured(
+                self.ocp,
+                formulation,
+                conditioning.patterns(),
+                mesh,
+                structure.clone(),
+            );
             let (mut settings, iterate) = self.warm_start(&program, trajectory, previous);
             settings.time_limit = self.deadline.remaining();
-            let units = conditioning.units(program.layout());
+            let mut units = conditioning.units(program.layout());
+            for (i, knot) in structure.knots.iter().enumerate() {
+                units.variables[program.layout().knot(i)] = knot.unit();
+            }
+            if !structure.is_empty() {
+                let most = settings.max_iterations.min(STRUCTURE_ITERATIONS);
+                settings.max_iterations = most;
+                settings.warm_start = settings.warm_start.map(|_| STRUCTURE_BARRIER);
+            }
             let mut solved =
                 self.solve(&mut program, &units, settings, iterate, statistics, monitor)?;
             nlp_iterations += solved.nlp_iterations;
@@ -99,11 +129,11 @@ impl<O: Ocp> MeshSolver<'_, O> {
             (
                 Some(Previous {
                     solved: old,
-                    errors,
+                    assessed,
                 }),
                 _,
             ) => {
-                let error = errors.max();
+                let error = assessed.errors.max();
                 settings.warm_start = Some(if error > ROUGH {
                     (ERROR_BARRIER * error).min(LARGEST_BARRIER)
                 } else {
@@ -142,7 +172,9 @@ impl<O: Ocp> MeshSolver<'_, O> {
         let mut nlp_iterations = solution.statistics.iterations;
         let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
         let gave_up = !solution.status.is_solved() && !stopped;
-        if gave_up && settings.warm_start.take().is_some() {
+        // Where a structure fails, the law has another mesh.
+        let again = program.structure().is_empty();
+        if gave_up && again && settings.warm_start.take().is_some() {
             // Multipliers may mislead; the same trajectory without them has every chance of
             // a cold start.
             let spent = solution.statistics.total;
@@ -155,6 +187,7 @@ impl<O: Ocp> MeshSolver<'_, O> {
         Ok(Solved {
             trajectory: program.unpack(&solution.iterate.x),
             layout: program.layout().clone(),
+            arcs_hold: program.arcs_hold(&solution.iterate),
             iterate: solution.iterate,
             status: solution.status,
             objective: solution.objective,

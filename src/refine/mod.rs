@@ -7,6 +7,7 @@
 //! | `method` | the methods by name |
 //! | `error`, `quadrature` | the error estimate (28), and one of the states themselves |
 //! | `violation` | bounds exceeded between the nodes |
+//! | `facts` | what a law may ask of the problem |
 //! | `law`, `laws` | what a law is, and one file a law |
 //! | `curvature` | curvature of a state, eq. (29) and (31) |
 //! | `conditioning` | scales, far bounds and patterns, settled after each solve |
@@ -24,6 +25,7 @@ mod conditioning;
 mod curvature;
 mod driver;
 mod error;
+mod facts;
 mod failure;
 mod law;
 mod laws;
@@ -42,13 +44,14 @@ mod violation;
 
 pub use driver::{Event, Refinement};
 pub use error::{Erring, Errors, midpoint_errors};
+pub use facts::Facts;
 pub use failure::SolveError;
 pub use law::{Assessment, Refined, RefinementLaw};
 pub use method::Method;
 pub use outcome::{CutShort, Outcome, ReleasedCondition};
 pub use quadrature::quadrature_error;
 pub use record::{Decision, Record};
-pub use settings::{ErrorMeasure, SettingError, Settings};
+pub use settings::{ErrorMeasure, Law, SettingError, Settings};
 pub use solve::{SolveSettings, solve, solve_from};
 pub use start::Start;
 pub use verdict::Verdict;

@@ -27,11 +27,37 @@ impl ErrorMeasure {
     }
 }
 
+/// How the adaptive method chooses its meshes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Law {
+    /// As in the paper: by errors and curvature.
+    #[default]
+    Paper,
+    /// By where controls switch, and as in the paper where they do not.
+    Structure,
+}
+
+impl Law {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Paper, Self::Structure];
+
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Structure => "structure",
+        }
+    }
+}
+
 /// First mesh, tolerance and refinement law. Each field says its default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Method. Default adaptive.
     pub method: Method,
+    /// How the adaptive method chooses its meshes. Default the paper's law.
+    pub law: Law,
     /// Equal segments of the first mesh. Default 10. The global method has one.
     pub segments: usize,
     /// LGR points in each segment of the first mesh, and the fewest in each part of a divided one.
@@ -65,6 +91,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             method: Method::Adaptive,
+            law: Law::Paper,
             segments: 10,
             points: 5,
             tolerance: 1e-5,

@@ -1,10 +1,11 @@
 //! Evaluates an optimal control problem at all collocation points, each thing once a point.
 
 use super::functions::{Boundary, Node};
+use super::grid::Grid;
 use super::node_derivatives::NodeDerivatives;
 use super::points::{Points, Shared};
 use super::way_point::{WayPointEvaluation, way_points};
-use super::{Layout, Patterns};
+use super::{Layout, Patterns, Structure};
 use crate::autodiff::{Function, SparseDerivatives};
 use crate::collocation::Mesh;
 use crate::nlp::Undefined;
@@ -18,6 +19,8 @@ pub(super) struct Evaluation<'a, O: Ocp> {
     pub node: Node<'a, O>,
     pub ends: Boundary<'a, O>,
     points: Points<'a, O>,
+    /// Widths of the segments.
+    pub grid: Grid,
     pub end_derivatives: SparseDerivatives<Boundary<'a, O>>,
     /// Outputs of every point, by points.
     pub values: Vec<f64>,
@@ -37,6 +40,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         formulation: &Formulation,
         patterns: &Patterns,
         mesh: &Mesh,
+        structure: &Structure,
         layout: Layout,
     ) -> Self {
         let node = Node::new(ocp, formulation);
@@ -45,13 +49,15 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         let end_derivatives = SparseDerivatives::new(&ends, patterns.ends.clone());
         let mut fractions = mesh.node_fractions();
         fractions.pop();
+        let starts = (0..layout.points).map(|k| layout.state(k, 0)).collect();
         Self {
+            grid: Grid::new(&layout, mesh, structure),
             way_points: way_points(ocp, formulation, patterns, &layout),
             fixed_duration: formulation.duration.lower,
             fixed_initial_time: formulation.initial_time.lower,
             values: vec![0.0; layout.points * node.outputs()],
             first: vec![0.0; layout.points * node_derivatives.jacobian_nonzeros()],
-            points: Points::new(&node, node_derivatives, patterns, fractions),
+            points: Points::new(&node, node_derivatives, patterns, fractions, starts),
             end_values: vec![0.0; ends.outputs()],
             end_first: vec![0.0; end_derivatives.jacobian_nonzeros()],
             have_values: false,
@@ -133,6 +139,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         if self.have_values {
             return;
         }
+        self.grid.place(x);
         let shared = self.shared(x);
         self.points.values(&self.node, x, shared, &mut self.values);
         self.load_ends(x);
@@ -149,6 +156,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         if self.have_first {
             return Ok(());
         }
+        self.grid.place(x);
         let shared = self.shared(x);
         self.points
             .jacobians(&self.node, x, shared, &mut self.first);

@@ -2,9 +2,8 @@
 
 use super::Layout;
 use super::evaluation::Evaluation;
+use super::grid::Grid;
 use super::jacobian::end_column;
-use super::quadrature::{half_widths, quadrature};
-use crate::collocation::Mesh;
 use crate::nlp::Undefined;
 use crate::ocp::Ocp;
 use std::collections::HashMap;
@@ -21,6 +20,16 @@ struct TimeTerms {
     initial: Vec<Vec<(usize, usize)>>,
     /// Slot of (t₀, T), where both are free and the problem depends on time.
     cross: Option<usize>,
+}
+
+/// Second derivatives of one point that involve a free breakpoint beside it, through the factor
+/// T·width/2: one list a point.
+#[derive(Debug, Default)]
+struct KnotTerms {
+    /// (input, slot, side).
+    coupling: Vec<Vec<(usize, usize, f64)>>,
+    /// With the duration, where that is free: (slot, side).
+    duration: Vec<Vec<(usize, f64)>>,
 }
 
 /// What the Lagrangian σf + Σ λg is made with.
@@ -44,8 +53,7 @@ pub(super) struct Hessian {
     /// Slots and block of each way-point.
     way_points: Vec<(Vec<usize>, Vec<f64>)>,
     time: TimeTerms,
-    half_width: Vec<f64>,
-    quadrature: Vec<f64>,
+    knots: KnotTerms,
     /// Weights of every point's outputs, by points.
     weights: Vec<f64>,
     /// Nonzeros of every point's weighted Hessian, by points.
@@ -56,7 +64,7 @@ pub(super) struct Hessian {
 }
 
 impl Hessian {
-    pub fn new<O: Ocp>(layout: &Layout, mesh: &Mesh, evaluation: &Evaluation<'_, O>) -> Self {
+    pub fn new<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>) -> Self {
         let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let mut slots = Slots::default();
@@ -94,6 +102,7 @@ impl Hessian {
             })
             .collect();
         let terms = TimeTerms::new(layout, evaluation, &mut slots);
+        let knots = KnotTerms::new(layout, evaluation, &mut slots);
         Self {
             layout: layout.clone(),
             rows: slots.rows,
@@ -102,8 +111,7 @@ impl Hessian {
             end_slots,
             way_points,
             time: terms,
-            half_width: half_widths(mesh),
-            quadrature: quadrature(mesh),
+            knots,
             weights: vec![0.0; layout.points * sparsity.jacobian.len()],
             blocks: vec![0.0; layout.points * sparsity.hessian.len()],
             end_weights: vec![0.0; evaluation.ends.rows + 1],
@@ -112,7 +120,8 @@ impl Hessian {
         }
     }
 
-    /// Values of σ∇²f + Σ λ∇²g. Where the duration is free, first derivatives must be current.
+    /// Values of σ∇²f + Σ λ∇²g. Where the duration or a breakpoint is free, values and first
+    /// derivatives must be current.
     pub fn values<O: Ocp>(
         &mut self,
         x: &[f64],
@@ -123,7 +132,7 @@ impl Hessian {
         values.fill(0.0);
         let duration = evaluation.duration(x);
         for k in 0..self.layout.points {
-            self.weigh(k, duration, multipliers);
+            self.weigh(k, duration, &evaluation.grid, multipliers);
         }
         evaluation.node_hessians(x, &self.weights, &mut self.blocks);
         for (h, &slot) in self.blocks.iter().zip(&self.node_slots) {
@@ -134,6 +143,11 @@ impl Hessian {
         if self.layout.free_duration {
             for k in 0..self.layout.points {
                 self.duration_terms(k, duration, evaluation, values);
+            }
+        }
+        if evaluation.grid.is_free() {
+            for k in 0..self.layout.points {
+                self.knot_terms(k, duration, evaluation, values);
             }
         }
         let width = evaluation.node_derivatives().sparsity().hessian.len();
@@ -170,11 +184,11 @@ impl Hessian {
     }
 
     /// Weights of point `k`'s outputs in the Lagrangian.
-    fn weigh(&mut self, k: usize, duration: f64, multipliers: Multipliers<'_>) {
+    fn weigh(&mut self, k: usize, duration: f64, grid: &Grid, multipliers: Multipliers<'_>) {
         let layout = &self.layout;
         let cost = layout.states + layout.path;
         let outputs = cost + 1 + layout.integrals;
-        let half = duration * self.half_width[k];
+        let half = duration * grid.half_width[k];
         let weights = &mut self.weights[k * outputs..(k + 1) * outputs];
         let first = layout.defect(k, 0);
         let rows = &multipliers.rows[first..first + layout.states + layout.path];
@@ -185,10 +199,10 @@ impl Hessian {
                 multiplier
             };
         }
-        weights[cost] = multipliers.objective * duration * self.quadrature[k];
+        weights[cost] = multipliers.objective * duration * grid.quadrature[k];
         let integrals = &multipliers.rows[layout.integral_row(0)..layout.final_time_row()];
         for (weight, multiplier) in weights[cost + 1..].iter_mut().zip(integrals) {
-            *weight = -(duration * self.quadrature[k]) * multiplier;
+            *weight = -(duration * grid.quadrature[k]) * multiplier;
         }
     }
 
@@ -238,6 +252,72 @@ impl Hessian {
         if let Some(slot) = self.time.cross {
             values[slot] += cross;
         }
+    }
+}
+
+impl Hessian {
+    /// Second derivatives with the free breakpoints beside a point: with ψ = (TW/2)·g(v), W being
+    /// the width, ψ_Wv = (T/2)·g_v and ψ_WT = g/2; the width changes by side with the breakpoint.
+    fn knot_terms<O: Ocp>(
+        &mut self,
+        k: usize,
+        duration: f64,
+        evaluation: &Evaluation<'_, O>,
+        values: &mut [f64],
+    ) {
+        if self.knots.coupling[k].is_empty() {
+            return;
+        }
+        let layout = &self.layout;
+        let sparsity = evaluation.node_derivatives().sparsity();
+        let width = 2.0 * evaluation.grid.half_width[k];
+        self.by_input.fill(0.0);
+        let outputs = sparsity.jacobian.len();
+        let weights = &self.weights[k * outputs..(k + 1) * outputs];
+        let mut first = evaluation.nonzeros(k).iter();
+        let mut sum = 0.0;
+        for (r, inputs) in sparsity.jacobian.iter().enumerate() {
+            let scaled = !(layout.states..layout.states + layout.path).contains(&r);
+            let weight = if scaled { weights[r] / width } else { 0.0 };
+            sum += weight * evaluation.outputs(k)[r];
+            for (&input, d) in inputs.iter().zip(first.by_ref()) {
+                self.by_input[input] += weight * d;
+            }
+        }
+        for &(input, slot, side) in &self.knots.coupling[k] {
+            values[slot] += side * self.by_input[input];
+        }
+        if layout.free_duration {
+            for &(slot, side) in &self.knots.duration[k] {
+                values[slot] += side * sum / duration;
+            }
+        }
+    }
+}
+
+impl KnotTerms {
+    fn new<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, slots: &mut Slots) -> Self {
+        let mut terms = Self::default();
+        if !evaluation.grid.is_free() {
+            return terms;
+        }
+        for k in 0..layout.points {
+            let inputs = coupled_inputs(layout, evaluation, k);
+            let mut coupling = Vec::new();
+            let mut duration = Vec::new();
+            for (variable, side) in evaluation.grid.sides(k) {
+                for &input in &inputs {
+                    let slot = slots.either(variable, layout.input(k, input));
+                    coupling.push((input, slot, side));
+                }
+                if layout.free_duration {
+                    duration.push((slots.either(variable, layout.duration()), side));
+                }
+            }
+            terms.coupling.push(coupling);
+            terms.duration.push(duration);
+        }
+        terms
     }
 }
 

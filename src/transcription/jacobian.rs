@@ -2,7 +2,7 @@
 
 use super::Layout;
 use super::evaluation::Evaluation;
-use super::quadrature::{half_widths, quadrature};
+use super::structure::LinearRow;
 use crate::autodiff::Sparsity;
 use crate::collocation::Mesh;
 use crate::ocp::Ocp;
@@ -35,6 +35,14 @@ enum Term {
         output: usize,
         time: Option<usize>,
     },
+    /// −side·(T/2)·f_row: by a free breakpoint at the start (−1) or the end (+1) of the segment.
+    RateByKnot { point: usize, row: usize, side: f64 },
+    /// −side·(T/2)·(weight of the rule)·g_output.
+    IntegrandByKnot {
+        point: usize,
+        output: usize,
+        side: f64,
+    },
 }
 
 /// The constraint Jacobian of a transcription: triplets, constant parts and terms to add.
@@ -45,21 +53,20 @@ pub(super) struct Jacobian {
     constant: Vec<f64>,
     /// (nonzero, term), in the order of the nonzeros.
     terms: Vec<(usize, Term)>,
-    /// width/2 of the segment of each point.
-    half_width: Vec<f64>,
-    /// Quadrature weight of each point.
-    quadrature: Vec<f64>,
 }
 
 impl Jacobian {
-    pub fn new<O: Ocp>(layout: &Layout, mesh: &Mesh, evaluation: &Evaluation<'_, O>) -> Self {
+    pub fn new<O: Ocp>(
+        layout: &Layout,
+        mesh: &Mesh,
+        structural: &[LinearRow],
+        evaluation: &Evaluation<'_, O>,
+    ) -> Self {
         let mut jacobian = Self {
             rows: Vec::new(),
             columns: Vec::new(),
             constant: Vec::new(),
             terms: Vec::new(),
-            half_width: half_widths(mesh),
-            quadrature: quadrature(mesh),
         };
         for s in 0..mesh.segments() {
             for i in 0..mesh.rule(s).len() {
@@ -79,6 +86,11 @@ impl Jacobian {
             ];
             for column in times.into_iter().flatten() {
                 jacobian.push(layout.final_time_row(), column, 1.0, None);
+            }
+        }
+        for (i, row) in structural.iter().enumerate() {
+            for &(column, weight) in &row.terms {
+                jacobian.push(layout.structural_row(i), column, weight, None);
             }
         }
         jacobian
@@ -131,6 +143,14 @@ impl Jacobian {
                     time: find(time),
                 };
                 self.push(row, layout.duration(), 0.0, Some(term));
+            }
+            for (variable, side) in evaluation.grid.sides(point).filter(|_| sparsity.active[r]) {
+                let term = Term::RateByKnot {
+                    point,
+                    row: r,
+                    side,
+                };
+                self.push(row, variable, 0.0, Some(term));
             }
             slot += inputs.len();
         }
@@ -234,6 +254,14 @@ impl Jacobian {
                 };
                 shared.entry(layout.duration()).or_default().push(term);
             }
+            for (variable, side) in evaluation.grid.sides(point) {
+                let term = Term::IntegrandByKnot {
+                    point,
+                    output,
+                    side,
+                };
+                shared.entry(variable).or_default().push(term);
+            }
         }
         for (column, terms) in shared {
             let nonzero = self.rows.len();
@@ -251,17 +279,18 @@ impl Jacobian {
     ) {
         values.copy_from_slice(&self.constant);
         let width = evaluation.node_derivatives().jacobian_nonzeros();
+        let grid = &evaluation.grid;
         let first = |point: usize, slot: usize| evaluation.first[point * width + slot];
         for &(nonzero, term) in &self.terms {
             values[nonzero] += match term {
                 Term::Rate { point, slot } => {
-                    -duration * self.half_width[point] * first(point, slot)
+                    -duration * grid.half_width[point] * first(point, slot)
                 }
                 Term::RateByDuration { point, row, time } => {
                     let by_time = time.map_or(0.0, |slot| {
                         duration * evaluation.fraction(point) * first(point, slot)
                     });
-                    -self.half_width[point] * (evaluation.outputs(point)[row] + by_time)
+                    -grid.half_width[point] * (evaluation.outputs(point)[row] + by_time)
                 }
                 Term::Path { point, slot } => first(point, slot),
                 Term::PathByDuration { point, slot } => {
@@ -270,7 +299,7 @@ impl Jacobian {
                 Term::End { slot } => evaluation.end_first[slot],
                 Term::WayPoint { way_point, slot } => evaluation.way_points[way_point].first[slot],
                 Term::Integrand { point, slot } => {
-                    -duration * self.quadrature[point] * first(point, slot)
+                    -duration * grid.quadrature[point] * first(point, slot)
                 }
                 Term::IntegrandByDuration {
                     point,
@@ -280,7 +309,18 @@ impl Jacobian {
                     let by_time = time.map_or(0.0, |slot| {
                         duration * evaluation.fraction(point) * first(point, slot)
                     });
-                    -self.quadrature[point] * (evaluation.outputs(point)[output] + by_time)
+                    -grid.quadrature[point] * (evaluation.outputs(point)[output] + by_time)
+                }
+                Term::RateByKnot { point, row, side } => {
+                    -side * 0.5 * duration * evaluation.outputs(point)[row]
+                }
+                Term::IntegrandByKnot {
+                    point,
+                    output,
+                    side,
+                } => {
+                    let half = 0.5 * duration * grid.weights[point];
+                    -side * half * evaluation.outputs(point)[output]
                 }
             };
         }

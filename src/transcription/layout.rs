@@ -1,16 +1,18 @@
 //! Where every state, control and constraint row stands in the programme.
 
+use super::Structure;
 use crate::collocation::Mesh;
+use crate::nlp::Iterate;
 use crate::ocp::Formulation;
 use std::sync::Arc;
 
 /// Order of variables and rows: in time, so that the programme's matrices are banded.
 ///
-/// Variables: states then controls of each collocation point, the states at t_f, and the border,
-/// which couples all points: the duration and t₀ where they are free, static parameters, integrals.
+/// Variables: states then controls of each collocation point, a free breakpoint before the states at
+/// its node, the states at t_f, and the border, which couples all points: the duration and t₀ where they are free, static parameters, integrals.
 /// Rows: those of the way-point that stands at a collocation point, the point's defects, its path
-/// rows, and so on from point to point; then boundary rows, one row for each integral, and that of
-/// the final time.
+/// rows, and so on from point to point; then boundary rows, one row for each integral, that of the
+/// final time, and those that the structure adds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
     /// Number of states.
@@ -35,6 +37,10 @@ pub struct Layout {
     pub integrals: usize,
     /// Way-points, rising in time.
     pub(crate) way_points: Arc<[WayPointRows]>,
+    /// Nodes of the free breakpoints, rising.
+    pub(crate) knots: Arc<[usize]>,
+    /// Number of rows that the structure adds.
+    pub(crate) structural: usize,
 }
 
 /// Where a way-point and its rows stand.
@@ -77,6 +83,8 @@ pub enum Row {
     Integral(usize),
     /// t₀ + T.
     FinalTime,
+    /// A row that the structure adds.
+    Structural(usize),
 }
 
 impl Layout {
@@ -85,6 +93,14 @@ impl Layout {
     /// # Panics
     /// Where a breakpoint is missing.
     pub fn new(formulation: &Formulation, mesh: &Mesh) -> Self {
+        Self::structured(formulation, mesh, &Structure::default())
+    }
+
+    /// The same with the free breakpoints and the rows of `structure`.
+    ///
+    /// # Panics
+    /// Where a breakpoint is missing.
+    pub fn structured(formulation: &Formulation, mesh: &Mesh, structure: &Structure) -> Self {
         let mut before = 0;
         let rows_of = |point: &crate::ocp::WayPoint| {
             let node = mesh.node_at(point.fraction);
@@ -108,6 +124,10 @@ impl Layout {
             parameters: formulation.parameters.len(),
             integrals: formulation.integrals.len(),
             way_points: formulation.way_points.iter().map(rows_of).collect(),
+            knots: (structure.knots.iter())
+                .map(|knot| mesh.start(knot.breakpoint))
+                .collect(),
+            structural: structure.row_count(),
         }
     }
 
@@ -118,17 +138,23 @@ impl Layout {
 
     /// Number of constraint rows.
     pub fn rows(&self) -> usize {
-        self.final_time_row() + usize::from(self.bounded_final_time)
+        self.structural_row(self.structural)
     }
 
     /// State `i` at node `k`; node `points` is t_f.
     pub fn state(&self, k: usize, i: usize) -> usize {
-        k * (self.states + self.controls) + i
+        let passed = self.knots.iter().take_while(|&&node| node <= k).count();
+        k * (self.states + self.controls) + passed + i
     }
 
     /// Control `j` at point `k`.
     pub fn control(&self, k: usize, j: usize) -> usize {
         self.state(k, self.states + j)
+    }
+
+    /// Free breakpoint `i`.
+    pub fn knot(&self, i: usize) -> usize {
+        self.state(self.knots[i], 0) - 1
     }
 
     /// The duration; only where it is free.
@@ -203,8 +229,43 @@ impl Layout {
         self.integral_row(self.integrals)
     }
 
+    /// Row `i` of those that the structure adds.
+    pub fn structural_row(&self, i: usize) -> usize {
+        self.final_time_row() + usize::from(self.bounded_final_time) + i
+    }
+
+    /// The layout without what a structure adds.
+    pub fn plain(&self) -> Self {
+        Self {
+            knots: Arc::new([]),
+            structural: 0,
+            ..self.clone()
+        }
+    }
+
+    /// `iterate` of this layout, without what a structure adds.
+    pub fn without_structure(&self, iterate: &Iterate) -> Iterate {
+        let knots: Vec<usize> = (0..self.knots.len()).map(|i| self.knot(i)).collect();
+        let kept = |values: &[f64]| {
+            let values = values.iter().enumerate();
+            let values = values.filter(|(v, _)| knots.binary_search(v).is_err());
+            values.map(|(_, &value)| value).collect()
+        };
+        let mut multipliers = iterate.multipliers.clone();
+        multipliers.truncate(self.structural_row(0));
+        Iterate {
+            x: kept(&iterate.x),
+            lower_multipliers: kept(&iterate.lower_multipliers),
+            upper_multipliers: kept(&iterate.upper_multipliers),
+            multipliers,
+        }
+    }
+
     /// What row `index` is.
     pub fn row(&self, index: usize) -> Row {
+        if index >= self.structural_row(0) {
+            return Row::Structural(index - self.structural_row(0));
+        }
         if index >= self.final_time_row() {
             return Row::FinalTime;
         } else if index >= self.integral_row(0) {

@@ -6,6 +6,7 @@
 mod discretization;
 mod evaluation;
 mod functions;
+mod grid;
 mod hessian;
 mod jacobian;
 mod layout;
@@ -19,6 +20,7 @@ mod program;
 mod quadrature;
 mod reach;
 mod scales;
+mod structure;
 mod way_point;
 
 pub use discretization::Discretization;
@@ -28,3 +30,4 @@ pub use program::Transcription;
 pub use quadrature::integrals;
 pub use reach::Reach;
 pub use scales::Scales;
+pub use structure::{FixedControl, FixedRow, Knot, SmoothState, Structure};

@@ -31,7 +31,12 @@ impl Names {
         if layout.border().contains(&index) {
             return self.in_border(layout, index);
         }
+        if let Some(i) = (0..layout.knots.len()).find(|&i| layout.knot(i) == index) {
+            return format!("breakpoint, {}", self.place(layout, layout.knots[i]));
+        }
         let width = layout.states + layout.controls;
+        let passed = (0..layout.knots.len()).filter(|&i| layout.knot(i) < index);
+        let index = index - passed.count();
         let (k, i) = (index / width, index % width);
         let quantity = if i < layout.states {
             &self.formulation.states[i]
@@ -76,6 +81,7 @@ impl Names {
             Row::Boundary(row) => formulation.boundary[row].name.clone(),
             Row::Integral(row) => format!("quadrature of {}", formulation.integrals[row].name),
             Row::FinalTime => "final time".into(),
+            Row::Structural(row) => format!("structure of the mesh, row {}", row + 1),
         }
     }
 }

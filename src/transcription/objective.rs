@@ -6,12 +6,9 @@ use super::jacobian::{end_column, first_slot};
 use crate::ocp::Ocp;
 
 /// Objective (25): terminal cost and quadrature of the running cost.
-pub(super) fn objective<O: Ocp>(
-    duration: f64,
-    quadrature: &[f64],
-    evaluation: &Evaluation<'_, O>,
-) -> f64 {
+pub(super) fn objective<O: Ocp>(duration: f64, evaluation: &Evaluation<'_, O>) -> f64 {
     let cost = evaluation.node.cost();
+    let quadrature = &evaluation.grid.quadrature;
     let integral: f64 = quadrature
         .iter()
         .enumerate()
@@ -23,7 +20,6 @@ pub(super) fn objective<O: Ocp>(
 /// Gradient of the objective, dense.
 pub(super) fn gradient<O: Ocp>(
     duration: f64,
-    quadrature: &[f64],
     layout: &Layout,
     evaluation: &Evaluation<'_, O>,
     gradient: &mut [f64],
@@ -33,7 +29,8 @@ pub(super) fn gradient<O: Ocp>(
     let cost = evaluation.node.cost();
     let inputs = &sparsity.jacobian[cost];
     let offset = first_slot(sparsity, cost);
-    for (k, w) in quadrature.iter().enumerate() {
+    let grid = &evaluation.grid;
+    for (k, w) in grid.quadrature.iter().enumerate() {
         let first = &evaluation.nonzeros(k)[offset..];
         for (&input, d) in inputs.iter().zip(first) {
             if input != evaluation.node.time() {
@@ -49,6 +46,10 @@ pub(super) fn gradient<O: Ocp>(
         }
         if layout.free_duration {
             gradient[layout.duration()] += w * evaluation.outputs(k)[cost];
+        }
+        for (variable, side) in grid.sides(k) {
+            let by_width = 0.5 * duration * grid.weights[k] * evaluation.outputs(k)[cost];
+            gradient[variable] += side * by_width;
         }
     }
     let inputs = &evaluation.end_derivatives.sparsity().jacobian[evaluation.ends.rows];

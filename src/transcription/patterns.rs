@@ -65,6 +65,38 @@ impl Patterns {
             .iter()
             .any(|input| (states..states + controls).contains(input))
     }
+
+    /// Of each state, the controls that its rate depends on.
+    pub fn drivers(&self, formulation: &Formulation) -> Vec<Vec<usize>> {
+        let (states, controls) = formulation.widths();
+        let own = states..states + controls;
+        let of = |inputs: &Vec<usize>| {
+            let inputs = inputs.iter().filter(|input| own.contains(input));
+            inputs.map(|input| input - states).collect()
+        };
+        self.node.jacobian[..states].iter().map(of).collect()
+    }
+
+    /// Whether rates, path rows, cost or integrands depend on the time, free or not.
+    pub fn depends_on_time<O: Ocp>(ocp: &O) -> bool {
+        let formulation = ocp.formulation();
+        let quantities = [
+            &formulation.states,
+            &formulation.controls,
+            &formulation.parameters,
+        ];
+        let bounds = quantities.into_iter().flatten().map(|q| &q.bounds);
+        let times = [&formulation.initial_time, &formulation.duration].map(inner_value);
+        let at: Vec<f64> = bounds
+            .map(inner_value)
+            .chain([times.iter().sum()])
+            .collect();
+        let node = Node::new(ocp, &formulation);
+        ocp.has_branches()
+            || find(false, &node, &[true], &at)
+                .columns()
+                .contains(&node.time())
+    }
 }
 
 /// Whether t, the last input of a point, is an unknown.

@@ -20,6 +20,8 @@ const MOST: usize = 8;
 pub(super) struct Points<'a, O: Ocp> {
     /// Fractions of the duration of the collocation points.
     fractions: Vec<f64>,
+    /// First variable of each collocation point.
+    starts: Vec<usize>,
     workers: Vec<Worker<'a, O>>,
     work: usize,
 }
@@ -52,6 +54,7 @@ impl<'a, O: Ocp> Points<'a, O> {
         derivatives: NodeDerivatives<'a, O>,
         patterns: &Patterns,
         fractions: Vec<f64>,
+        starts: Vec<usize>,
     ) -> Self {
         let work = fractions.len() * node.inputs().pow(2);
         let worker = |derivatives| Worker {
@@ -66,6 +69,7 @@ impl<'a, O: Ocp> Points<'a, O> {
         }
         Self {
             fractions,
+            starts,
             workers,
             work,
         }
@@ -138,12 +142,12 @@ impl<'a, O: Ocp> Points<'a, O> {
         if width == 0 {
             return;
         }
-        let fractions = &self.fractions;
+        let (fractions, starts) = (&self.fractions, &self.starts);
         let share = points.div_ceil(SHARES * count);
         let shares = out.chunks_mut(share * width).enumerate();
         parallel::for_each(&mut self.workers[..count], shares, |worker, (s, out)| {
             for (k, out) in (s * share..).zip(out.chunks_exact_mut(width)) {
-                iterate.load(k, fractions[k], &mut worker.inputs);
+                iterate.load(starts[k], fractions[k], &mut worker.inputs);
                 body(worker, k, out);
             }
         });
@@ -151,11 +155,11 @@ impl<'a, O: Ocp> Points<'a, O> {
 }
 
 impl<O: Ocp> Iterate<'_, '_, O> {
-    /// Inputs (x, u, p, t) of point `k`.
-    fn load(&self, k: usize, fraction: f64, inputs: &mut [f64]) {
+    /// Inputs (x, u, p, t) of the point whose variables begin at `start`.
+    fn load(&self, start: usize, fraction: f64, inputs: &mut [f64]) {
         let width = self.node.own();
         let time = self.node.time();
-        inputs[..width].copy_from_slice(&self.x[k * width..(k + 1) * width]);
+        inputs[..width].copy_from_slice(&self.x[start..start + width]);
         inputs[width..time].copy_from_slice(self.shared.parameters);
         inputs[time] = self.shared.initial_time + fraction * self.shared.duration;
     }

@@ -5,20 +5,25 @@ use super::hessian::{Hessian, Multipliers};
 use super::jacobian::Jacobian;
 use super::names::Names;
 use super::objective;
-use super::quadrature::{integrals, quadrature};
-use super::{Discretization, Layout, Patterns};
+use super::quadrature::integrals;
+use super::structure::LinearRow;
+use super::{Discretization, Layout, Patterns, Structure};
 use crate::collocation::Mesh;
-use crate::nlp::{Nlp, Size, Undefined};
+use crate::nlp::{Iterate, Nlp, Size, Undefined};
 use crate::ocp::{Formulation, Interval, Ocp};
 use std::fmt;
+
+/// Part of the steepest slope by a control on a bound that may point inward elsewhere in its arc.
+const WRONG: f64 = 0.05;
 
 /// An optimal control problem on one mesh: minimise (25) subject to (26) and (27).
 pub struct Transcription<'a, O: Ocp> {
     formulation: Formulation,
     mesh: Mesh,
+    structure: Structure,
+    structural: Vec<LinearRow>,
     layout: Layout,
     names: Names,
-    quadrature: Vec<f64>,
     evaluation: Evaluation<'a, O>,
     jacobian: Jacobian,
     hessian: Hessian,
@@ -41,14 +46,43 @@ impl<'a, O: Ocp> Transcription<'a, O> {
 
     /// The same within the bounds of `formulation`, which is that of the problem but for them.
     pub fn within(ocp: &'a O, formulation: Formulation, patterns: &Patterns, mesh: Mesh) -> Self {
-        let layout = Layout::new(&formulation, &mesh);
-        let evaluation = Evaluation::new(ocp, &formulation, patterns, &mesh, layout.clone());
+        Self::structured(ocp, formulation, patterns, mesh, Structure::default())
+    }
+
+    /// The same with what `structure` knows of the solution.
+    ///
+    /// # Panics
+    /// Where breakpoints are free and the problem depends on time.
+    pub fn structured(
+        ocp: &'a O,
+        formulation: Formulation,
+        patterns: &Patterns,
+        mesh: Mesh,
+        structure: Structure,
+    ) -> Self {
+        let layout = Layout::structured(&formulation, &mesh, &structure);
+        let structural =
+            structure.linear_rows(&mesh, |k, i| layout.state(k, i), |i| layout.knot(i));
+        let evaluation = Evaluation::new(
+            ocp,
+            &formulation,
+            patterns,
+            &mesh,
+            &structure,
+            layout.clone(),
+        );
+        let columns = evaluation.node_derivatives().sparsity().columns();
+        assert!(
+            structure.knots.is_empty() || !columns.contains(&evaluation.node.time()),
+            "free breakpoints need a problem that does not depend on time"
+        );
         Self {
             names: Names::new(formulation.clone(), &mesh),
-            quadrature: quadrature(&mesh),
-            jacobian: Jacobian::new(&layout, &mesh, &evaluation),
-            hessian: Hessian::new(&layout, &mesh, &evaluation),
+            jacobian: Jacobian::new(&layout, &mesh, &structural, &evaluation),
+            hessian: Hessian::new(&layout, &evaluation),
             formulation,
+            structure,
+            structural,
             mesh,
             layout,
             evaluation,
@@ -63,6 +97,11 @@ impl<'a, O: Ocp> Transcription<'a, O> {
     /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// What the mesh knows of the solution's arcs.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
     }
 
     /// Quantities and bounds of the problem.
@@ -88,6 +127,9 @@ impl<'a, O: Ocp> Transcription<'a, O> {
                 x[start..start + layout.controls].copy_from_slice(trajectory.control(k));
             }
         }
+        for (i, knot) in self.structure.knots.iter().enumerate() {
+            x[layout.knot(i)] = trajectory.mesh.breakpoints()[knot.breakpoint];
+        }
         if layout.free_duration {
             x[layout.duration()] = trajectory.duration;
         }
@@ -111,7 +153,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
             x[start..start + layout.controls].iter().copied()
         });
         Discretization {
-            mesh: self.mesh.clone(),
+            mesh: self.evaluation.grid.mesh(x),
             initial_time: self.evaluation.initial_time(x),
             duration: self.evaluation.duration(x),
             parameters: x[layout.parameter(0)..layout.integral(0)].to_vec(),
@@ -167,6 +209,17 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
                 upper[layout.control(k, j)] = control.bounds.upper;
             }
         }
+        for fixed in &self.structure.fixed {
+            let s = fixed.segment;
+            for k in self.mesh.start(s)..self.mesh.start(s + 1) {
+                lower[layout.control(k, fixed.control)] = fixed.value;
+                upper[layout.control(k, fixed.control)] = fixed.value;
+            }
+        }
+        for (i, knot) in self.structure.knots.iter().enumerate() {
+            lower[layout.knot(i)] = knot.window.lower;
+            upper[layout.knot(i)] = knot.window.upper;
+        }
         if layout.free_duration {
             lower[layout.duration()] = self.formulation.duration.lower;
             upper[layout.duration()] = self.formulation.duration.upper;
@@ -192,6 +245,13 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
                 upper[layout.path(k, p)] = row.bounds.upper;
             }
         }
+        for fixed in &self.structure.rows {
+            let s = fixed.segment;
+            for k in self.mesh.start(s)..self.mesh.start(s + 1) {
+                lower[layout.path(k, fixed.row)] = fixed.value;
+                upper[layout.path(k, fixed.row)] = fixed.value;
+            }
+        }
         for (w, point) in self.formulation.way_points.iter().enumerate() {
             for (r, row) in point.rows.iter().enumerate() {
                 lower[layout.way_point(w, r)] = row.bounds.lower;
@@ -205,6 +265,10 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
         if layout.bounded_final_time {
             lower[layout.final_time_row()] = self.formulation.final_time.lower;
             upper[layout.final_time_row()] = self.formulation.final_time.upper;
+        }
+        for (i, row) in self.structural.iter().enumerate() {
+            lower[layout.structural_row(i)] = row.bounds.lower;
+            upper[layout.structural_row(i)] = row.bounds.upper;
         }
     }
 
@@ -225,7 +289,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     fn objective(&mut self, x: &[f64]) -> Result<f64, Undefined> {
         self.evaluation.need_values(x);
         let duration = self.evaluation.duration(x);
-        let value = objective::objective(duration, &self.quadrature, &self.evaluation);
+        let value = objective::objective(duration, &self.evaluation);
         if value.is_finite() {
             Ok(value)
         } else {
@@ -238,13 +302,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     fn gradient(&mut self, x: &[f64], gradient: &mut [f64]) -> Result<(), Undefined> {
         self.need_all(x)?;
         let duration = self.evaluation.duration(x);
-        objective::gradient(
-            duration,
-            &self.quadrature,
-            &self.layout,
-            &self.evaluation,
-            gradient,
-        );
+        objective::gradient(duration, &self.layout, &self.evaluation, gradient);
         Ok(())
     }
 
@@ -255,7 +313,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
         for s in 0..self.mesh.segments() {
             let rule = self.mesh.rule(s);
             let start = self.mesh.start(s);
-            let half = 0.5 * duration * self.mesh.width(s);
+            let half = duration * self.evaluation.grid.half_width[start];
             for i in 0..rule.len() {
                 let outputs = self.evaluation.outputs(start + i);
                 let rows = layout.defect(start + i, 0);
@@ -281,13 +339,17 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
         for i in 0..layout.integrals {
             let output = self.evaluation.node.cost() + 1 + i;
             let mut sum = 0.0;
-            for (k, w) in self.quadrature.iter().enumerate() {
+            for (k, w) in self.evaluation.grid.quadrature.iter().enumerate() {
                 sum += w * self.evaluation.outputs(k)[output];
             }
             values[layout.integral_row(i)] = x[layout.integral(i)] - duration * sum;
         }
         if layout.bounded_final_time {
             values[layout.final_time_row()] = self.evaluation.initial_time(x) + duration;
+        }
+        for (i, row) in self.structural.iter().enumerate() {
+            let terms = row.terms.iter().map(|&(v, weight)| weight * x[v]);
+            values[layout.structural_row(i)] = terms.sum();
         }
         if values.iter().all(|v| v.is_finite()) {
             Ok(())
@@ -312,7 +374,8 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
         multipliers: &[f64],
         values: &mut [f64],
     ) -> Result<(), Undefined> {
-        if self.layout.free_duration {
+        self.evaluation.grid.place(x);
+        if self.layout.free_duration || self.evaluation.grid.is_free() {
             self.need_all(x)?;
         }
         self.hessian.values(
@@ -338,9 +401,65 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
 impl<O: Ocp> Transcription<'_, O> {
     /// Values and first derivatives; values only where a derivative by the duration needs them.
     fn need_all(&mut self, x: &[f64]) -> Result<(), Undefined> {
-        if self.layout.free_duration {
+        if self.layout.free_duration || self.evaluation.grid.is_free() {
             self.evaluation.need_values(x);
         }
         self.evaluation.need_first(x)
+    }
+
+    /// Whether every control and row that the structure fixes on one of its bounds is better there than
+    /// inside, by the slope of the Lagrangian at `iterate` and by the rows' multipliers: within a part of
+    /// the steepest in the arc.
+    pub fn arcs_hold(&mut self, iterate: &Iterate) -> bool {
+        if self.structure.fixed.is_empty() && self.structure.rows.is_empty() {
+            return true;
+        }
+        let Some(slope) = self.slope(iterate) else {
+            return false;
+        };
+        let weights = &self.evaluation.grid.quadrature;
+        // The loss by a step inward must be one everywhere.
+        let holds = |segment: usize, loss: &dyn Fn(usize) -> f64| {
+            let points = self.mesh.start(segment)..self.mesh.start(segment + 1);
+            let (mut least, mut most) = (0.0_f64, 0.0_f64);
+            for loss in points.map(|k| loss(k) / weights[k]) {
+                least = least.min(loss);
+                most = most.max(loss);
+            }
+            -least <= WRONG * most
+        };
+        let inward = |value: f64, bounds: &Interval| match value == bounds.lower {
+            true => 1.0,
+            false => -1.0,
+        };
+        let controls = self.structure.fixed.iter().all(|fixed| {
+            let bounds = &self.formulation.controls[fixed.control].bounds;
+            let side = inward(fixed.value, bounds);
+            holds(fixed.segment, &|k| {
+                side * slope[self.layout.control(k, fixed.control)]
+            })
+        });
+        let rows = self.structure.rows.iter().all(|fixed| {
+            let bounds = &self.formulation.path[fixed.row].bounds;
+            let side = inward(fixed.value, bounds);
+            holds(fixed.segment, &|k| {
+                -side * iterate.multipliers[self.layout.path(k, fixed.row)]
+            })
+        });
+        controls && rows
+    }
+
+    /// The gradient of the Lagrangian, bounds left out.
+    fn slope(&mut self, iterate: &Iterate) -> Option<Vec<f64>> {
+        let mut slope = vec![0.0; self.layout.variables()];
+        let mut values = vec![0.0; self.jacobian.rows.len()];
+        self.new_point();
+        self.gradient(&iterate.x, &mut slope).ok()?;
+        Nlp::jacobian(self, &iterate.x, &mut values).ok()?;
+        let places = self.jacobian.rows.iter().zip(&self.jacobian.columns);
+        for ((&row, &column), value) in places.zip(values) {
+            slope[column] += iterate.multipliers[row] * value;
+        }
+        Some(slope)
     }
 }

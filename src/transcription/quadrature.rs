@@ -4,13 +4,6 @@ use super::Discretization;
 use crate::collocation::Mesh;
 use crate::ocp::{Formulation, Ocp};
 
-/// width/2 of the segment of each point, fraction of the duration.
-pub(super) fn half_widths(mesh: &Mesh) -> Vec<f64> {
-    (0..mesh.segments())
-        .flat_map(|s| std::iter::repeat_n(0.5 * mesh.width(s), mesh.rule(s).len()))
-        .collect()
-}
-
 /// Quadrature weight of each point, fraction of the duration; sum 1.
 pub(super) fn quadrature(mesh: &Mesh) -> Vec<f64> {
     (0..mesh.segments())

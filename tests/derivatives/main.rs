@@ -11,6 +11,7 @@ mod trees;
 mod border;
 mod checks;
 mod explicit_time;
+mod free_breakpoints;
 mod functions;
 mod in_space;
 mod in_the_plane;

@@ -6,6 +6,7 @@ mod hypersensitive;
 mod integrals;
 mod integrators;
 mod parameters;
+mod structure;
 mod times;
 mod way_points;
 

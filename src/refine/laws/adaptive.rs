@@ -23,6 +23,7 @@ use crate::refine::curvature::{Curvature, even_cuts};
 use crate::refine::{
     Assessment, Decision, Erring, Record, Refined, RefinementLaw, Settings, Violation,
 };
+use crate::transcription::Structure;
 
 /// The largest error of segment `s` on the mesh before, where it was the same segment with fewer
 /// points.
@@ -134,7 +135,11 @@ impl RefinementLaw for Law<'_> {
             Err(MeshError::TooMany { .. }) => return None,
             mesh => mesh.expect("cuts rise within their segment"),
         };
-        Some(Refined { mesh, decisions })
+        Some(Refined {
+            mesh,
+            decisions,
+            structure: Structure::default(),
+        })
     }
 }
 
@@ -246,6 +251,11 @@ mod tests {
             },
             before: None,
             violations: &[violation.into_iter().collect()],
+            solution: &trajectory,
+            structure: &Structure::default(),
+            structure_failed: false,
+            facts: None,
+            tolerance: settings.tolerance,
         })
     }
 

@@ -4,6 +4,7 @@
 use super::raise::raised;
 use crate::collocation::{Mesh, MeshError};
 use crate::refine::{Assessment, Decision, Record, Refined, RefinementLaw, Settings};
+use crate::transcription::Structure;
 
 /// One segment, or one between each two way-points, all with as many points.
 #[derive(Debug)]
@@ -39,6 +40,7 @@ impl RefinementLaw for Law<'_> {
         Some(Refined {
             mesh: mesh.expect("the breakpoints of a mesh"),
             decisions: vec![Decision::Raise(more); old.segments()],
+            structure: Structure::default(),
         })
     }
 }
@@ -57,14 +59,20 @@ mod tests {
             ..Settings::default()
         };
         let mesh = Mesh::uniform(2, points).unwrap();
+        let trajectory = Discretization::sample(mesh, 1.0, 1, 0, |_, _, _| {});
         Law(&settings).refine(&Assessment {
-            trajectory: &Discretization::sample(mesh, 1.0, 1, 0, |_, _, _| {}),
+            trajectory: &trajectory,
             errors: &Errors {
                 by_segment: vec![vec![1e-9], vec![error]],
                 integrals: vec![Vec::new(); 2],
             },
             before: None,
             violations: &[vec![], vec![]],
+            solution: &trajectory,
+            structure: &Structure::default(),
+            structure_failed: false,
+            facts: None,
+            tolerance: settings.tolerance,
         })
     }
 

@@ -3,6 +3,7 @@
 //! | file | law |
 //! | --- | --- |
 //! | `adaptive` | the paper's: segments divided or degrees raised, eq. (29) to (32) |
+//! | `structure` | breakpoints where controls switch, placed by the solve |
 //! | `global` | the degree raised everywhere |
 //!
 //! A new law is a file here with its `Law`, and an entry in the list of `method`.
@@ -10,9 +11,10 @@
 mod adaptive;
 mod global;
 mod raise;
+mod structure;
 
 use super::method::methods;
-use super::{Method, RefinementLaw, Settings};
+use super::{Law, Method, RefinementLaw, Settings};
 use crate::collocation::{Mesh, MeshError};
 
 macro_rules! choose {
@@ -21,6 +23,9 @@ macro_rules! choose {
             /// The law that these settings ask for.
             pub fn law(&self) -> Box<dyn RefinementLaw + '_> {
                 match self.method {
+                    Method::Adaptive if self.law == Law::Structure => {
+                        Box::new(structure::Law(self))
+                    }
                     $(Method::$variant => Box::new($file::Law(self)),)*
                 }
             }
