@@ -154,11 +154,10 @@ impl<O: Ocp> Refinement<'_, O> {
             records.push(self.record(&solved, &assessed, began));
             // A structure that does not hold is no reason to end: the mesh before counts.
             let stopped = matches!(solved.status, Status::Interrupted | Status::TimeLimit);
-            let fell = !structure.is_empty()
-                && !stopped
-                && !(solved.status.is_solved()
-                    && solved.arcs_hold
-                    && self.gains(&assessed, previous.as_ref()));
+            let holds = solved.status.is_solved()
+                && solved.arcs_hold
+                && self.gains(&assessed, previous.as_ref());
+            let fell = !(structure.is_empty() || stopped || holds);
             structure_failed |= fell;
             if !fell && self.diverges(&records) {
                 records[iteration - 1].verdict = Verdict::Diverging;

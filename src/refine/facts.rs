@@ -10,6 +10,8 @@ pub struct Facts<'a> {
     pub formulation: &'a Formulation,
     /// Of each state, the controls that its rate depends on.
     pub drivers: Vec<Vec<usize>>,
+    /// Whether each control has a second derivative by itself: then it has no layers.
+    pub curved: Vec<bool>,
     /// Whether nothing depends on time.
     pub autonomous: bool,
     /// Whether each path row depends on a control.
@@ -45,6 +47,7 @@ impl<'a> Facts<'a> {
                 .map(|p| !patterns.path_is_continuous(formulation, p))
                 .collect(),
             drivers: patterns.drivers(formulation),
+            curved: patterns.curved_controls(formulation),
             autonomous: !Patterns::depends_on_time(ocp),
             rates: Box::new(rates),
         }

@@ -77,6 +77,14 @@ impl Patterns {
         self.node.jacobian[..states].iter().map(of).collect()
     }
 
+    /// Whether each control has a second derivative by itself, as where the cost weighs its square.
+    pub fn curved_controls(&self, formulation: &Formulation) -> Vec<bool> {
+        let (states, controls) = formulation.widths();
+        (states..states + controls)
+            .map(|input| self.node.hessian.contains(&(input, input)))
+            .collect()
+    }
+
     /// Whether rates, path rows, cost or integrands depend on the time, free or not.
     pub fn depends_on_time<O: Ocp>(ocp: &O) -> bool {
         let formulation = ocp.formulation();

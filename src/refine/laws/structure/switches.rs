@@ -71,11 +71,12 @@ pub(super) fn find(assessment: &Assessment<'_>, facts: &Facts<'_>) -> Found {
         let What::Control(control) = signal.what else {
             continue;
         };
-        let both = signal.bounds.lower.is_finite() && signal.bounds.upper.is_finite();
-        if both && inside(runs.first()) {
+        let bounded = signal.bounds.lower.is_finite() && signal.bounds.upper.is_finite();
+        let may_jump = bounded && !facts.curved[control];
+        if may_jump && inside(runs.first()) {
             layer(assessment, facts, control, false, &mut layers);
         }
-        if both && inside(runs.last()) {
+        if may_jump && inside(runs.last()) {
             layer(assessment, facts, control, true, &mut layers);
         }
     }
