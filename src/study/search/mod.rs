@@ -11,14 +11,17 @@
 //!
 //! | file | does |
 //! | --- | --- |
+//! | `event` | what a monitor sees |
 //! | `first_mesh` | the solve of one start |
 //! | `optimum` | what several starts ended at, counted once |
 //! | `teller` | one monitor for work on several threads |
 
+mod event;
 mod first_mesh;
 mod optimum;
 mod teller;
 
+pub use event::SearchEvent;
 pub use optimum::Optimum;
 
 use crate::nlp::{Control, Deadline};
@@ -60,30 +63,6 @@ impl Default for Search {
             seed: 1,
         }
     }
-}
-
-/// A step of a search, for a progress line; the monitor's answer can stop it.
-#[derive(Debug, Clone, Copy)]
-#[non_exhaustive]
-pub enum SearchEvent<'a> {
-    /// A start was solved on the first mesh, or was not.
-    Tried {
-        /// How many were tried so far.
-        tried: usize,
-        /// Number of starts.
-        of: usize,
-        /// The least J until then, infinite where none was solved.
-        best: f64,
-    },
-    /// A step of the refinement of one of the best.
-    Refining {
-        /// Which of them, counted from 1.
-        candidate: usize,
-        /// How many there are.
-        of: usize,
-        /// The step.
-        event: Event<'a>,
-    },
 }
 
 /// What the starts of a search ended at.

@@ -1,6 +1,6 @@
 //! One monitor for work on several threads.
 
-use super::SearchEvent;
+use super::event::SearchEvent;
 use crate::nlp::Control;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
