@@ -1,12 +1,10 @@
 //! What the commands that search take for it.
 
 use super::failure::Failure;
-use crate::parallel;
 use crate::planner::Method;
 use crate::refine;
 use crate::study::search::{STARTS, Search};
 use clap::Args;
-use std::num::NonZero;
 
 /// Most starts of one search.
 const MOST: i64 = 1_000_000;
@@ -21,9 +19,6 @@ pub(super) struct SearchArguments {
     /// What the random numbers of the search begin with
     #[arg(long, value_name = "S", default_value_t = 1, requires = "search")]
     seed: u64,
-    /// Threads that the search uses [default: one for each processor]
-    #[arg(long, value_name = "N", requires = "search")]
-    threads: Option<NonZero<usize>>,
 }
 
 fn starts(text: &str) -> Result<usize, String> {
@@ -47,9 +42,6 @@ impl SearchArguments {
                 method.name()
             )));
         };
-        if let Some(threads) = self.threads {
-            parallel::set_thread_count(threads);
-        }
         let seed = self.seed;
         Ok(Some((Search { starts, seed }, method)))
     }

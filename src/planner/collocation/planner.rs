@@ -193,6 +193,13 @@ impl<Sp: Space> Search<'_, Sp> {
             iterate: None,
         };
         let mut second = self.refine(&again, monitor)?;
+        if second.status == Status::NotConverged && !self.deadline.has_passed() {
+            // That may be the same motion again; the straight path leads elsewhere, or nowhere.
+            let other = self.refine(&straight(problem, system)?, monitor)?;
+            if other.status == Status::Solved {
+                second = other;
+            }
+        }
         let records = &mut second.outcome.records;
         records.splice(0..0, outcome.records);
         second.outcome.statistics.add(&outcome.statistics);
