@@ -7,7 +7,7 @@ use crate::study::search::{STARTS, Search};
 use clap::Args;
 
 /// Most starts of one search.
-const MOST: i64 = 1_000_000;
+const MOST: usize = 1_000_000;
 
 /// A search from many starts.
 #[derive(Debug, Args)]
@@ -23,7 +23,7 @@ pub(super) struct SearchArguments {
 
 fn starts(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
-        Ok(starts) if (1..=MOST as usize).contains(&starts) => Ok(starts),
+        Ok(starts) if (1..=MOST).contains(&starts) => Ok(starts),
         _ => Err(format!(
             "expected a number of starts from 1 to {MOST}, such as {STARTS}"
         )),

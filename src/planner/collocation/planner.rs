@@ -91,10 +91,7 @@ impl Planner {
         if start.is_some_and(|start| start.iterate.is_some()) {
             solver.warm_start.get_or_insert(WARM_BARRIER);
         }
-        let start = match start {
-            Some(given) => led(given, problem, system)?,
-            None => straight(problem, system)?,
-        };
+        let given = start.map(|given| led(given, problem, system)).transpose()?;
         let search = Search {
             problem,
             system,
@@ -102,9 +99,10 @@ impl Planner {
             solver: &solver,
             deadline: Deadline::after(solver.time_limit),
         };
-        let found = match self.leaves_why {
-            true => search.refine(&start, monitor)?,
-            false => search.run(&start, monitor)?,
+        let found = match (given, self.leaves_why) {
+            (Some(given), true) => search.refine(&given, monitor)?,
+            (None, true) => search.refine(&straight(problem, system)?, monitor)?,
+            (given, false) => search.run(given.as_ref(), monitor)?,
         };
         Ok(assemble(problem, system, found, &solver, began))
     }
@@ -142,6 +140,15 @@ struct Found {
     diagnosis: Option<Diagnosis>,
 }
 
+impl Found {
+    /// The same with what `earlier` took in its records and statistics.
+    fn after(mut self, earlier: Outcome) -> Self {
+        self.outcome.records.splice(0..0, earlier.records);
+        self.outcome.statistics.add(&earlier.statistics);
+        self
+    }
+}
+
 struct Search<'a, Sp: Space> {
     problem: &'a Problem,
     system: &'a FreeFloating<Sp>,
@@ -152,14 +159,21 @@ struct Search<'a, Sp: Space> {
 }
 
 impl<Sp: Space> Search<'_, Sp> {
-    /// Refines from `start`; where nothing is found, asks why, and begins again from a trajectory
-    /// within all limits where the answer is one.
+    /// Refines from `given`, and from the straight path where there is none or where that fails; where
+    /// nothing is found, asks why, and begins again from a trajectory within all limits where the
+    /// answer is one.
     fn run(
         &self,
-        start: &Start,
+        given: Option<&Start>,
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Found, PlanError> {
-        let first = self.refine(start, monitor)?;
+        let start = straight(self.problem, self.system)?;
+        let mut first = self.refine(given.unwrap_or(&start), monitor)?;
+        let misled = first.status == Status::NotConverged && asks_why(&first.outcome, self.solver);
+        if given.is_some() && misled {
+            let second = self.refine(&start, monitor)?;
+            first = second.after(first.outcome);
+        }
         if first.status != Status::NotConverged || !asks_why(&first.outcome, self.solver) {
             return Ok(first);
         }
@@ -192,18 +206,7 @@ impl<Sp: Space> Search<'_, Sp> {
             trajectory: diagnosed.trajectory.resample(start.trajectory.mesh.clone()),
             iterate: None,
         };
-        let mut second = self.refine(&again, monitor)?;
-        if second.status == Status::NotConverged && !self.deadline.has_passed() {
-            // That may be the same motion again; the straight path leads elsewhere, or nowhere.
-            let other = self.refine(&straight(problem, system)?, monitor)?;
-            if other.status == Status::Solved {
-                second = other;
-            }
-        }
-        let records = &mut second.outcome.records;
-        records.splice(0..0, outcome.records);
-        second.outcome.statistics.add(&outcome.statistics);
-        Ok(second)
+        Ok(self.refine(&again, monitor)?.after(outcome))
     }
 
     fn refine(
