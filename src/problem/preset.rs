@@ -59,7 +59,7 @@ impl Preset {
     /// it is to turn less. A base that turns a tenth of that is a hundredth.
     fn base_over_effort(self) -> Option<f64> {
         match self {
-            Self::Still => Some(1e4),
+            Self::Still => Some(1e3),
             Self::Gentle => Some(1e2),
             Self::Paper => None,
         }

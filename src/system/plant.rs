@@ -74,6 +74,21 @@ impl<Sp: Space> Plant<Sp> {
         position
     }
 
+    /// ζ − ζ(t₀), with the arguments of [`Plant::base_position`].
+    pub fn base_displacement<S: Scalar>(
+        &self,
+        eta: &[S],
+        t: S,
+        center: &Sp::Linear<S>,
+    ) -> Sp::Linear<S> {
+        let mut moved = self.base_position(eta, t, center);
+        let start = self.start_position.components();
+        for (z, &z0) in moved.components_mut().iter_mut().zip(start) {
+            *z = *z - z0;
+        }
+        moved
+    }
+
     /// A vector in inertial axes by its components along the base axes at t₀.
     pub fn seen_from_start<S: Scalar>(&self, vector: &Sp::Linear<S>) -> Sp::Linear<S> {
         let mut eta = [S::constant(0.0); MOST_PARAMETERS];

@@ -27,11 +27,10 @@ impl BasePositionTerm {
         t: S,
         center: &Sp::Linear<S>,
     ) -> S {
-        let position = plant.base_position(eta, t, center);
-        let start = plant.start_position.components();
+        let moved = plant.base_displacement(eta, t, center);
         let mut sum = S::zero();
-        for ((&weight, &z), &z0) in self.0.iter().zip(position.components()).zip(start) {
-            sum += (z - z0).square() * weight;
+        for (&weight, z) in self.0.iter().zip(moved.components()) {
+            sum += z.square() * weight;
         }
         sum
     }

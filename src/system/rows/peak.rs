@@ -11,6 +11,7 @@ use crate::ocp::{Interval, Quantity};
 use crate::problem::{CostId, LimitId, Problem, Unit};
 use crate::system::instant::{Instant, Needs, Pose};
 use crate::system::linearization::{Adjoint, Linearization, Lower};
+use crate::system::plant::Plant;
 use crate::system::pose_function::{PoseVariables, Variable, add_curvature, each_slope};
 use std::slice;
 
@@ -274,18 +275,12 @@ fn sum_of_squares<S: Scalar>(values: &[S]) -> S {
 
 /// ‖ζ − ζ(t₀)‖².
 fn displacement<Sp: Space, S: Scalar>(
-    plant: &crate::system::plant::Plant<Sp>,
+    plant: &Plant<Sp>,
     eta: &[S],
     t: S,
     center: &Sp::Linear<S>,
 ) -> S {
-    let position = plant.base_position(eta, t, center);
-    let start = plant.start_position.components();
-    let mut sum = S::zero();
-    for (&z, &z0) in position.components().iter().zip(start) {
-        sum += (z - z0).square();
-    }
-    sum
+    sum_of_squares(plant.base_displacement(eta, t, center).components())
 }
 
 /// ‖ζ − ζ(t₀)‖² with its derivatives.
