@@ -97,6 +97,8 @@ const RADIAN: f64 = 1.0;
 const LEAST_SLIDE: f64 = 0.05;
 /// Largest rate of a loop of radius one over a time of one: 2π times that of a quintic.
 const LOOP_RATE: f64 = TAU * 15.0 / 8.0;
+/// How often a loop may go round: several narrow ones can turn the base more than one wide one.
+const MOST_TURNS: u32 = 4;
 /// Part of the largest rates that a loop may take.
 const SHARE: f64 = 0.9;
 /// Factor by which a loop is narrowed, and how often, where it leaves the joints' limits.
@@ -202,15 +204,16 @@ impl<'a> Starts<'a> {
         let mut radii = [radius(i), radius(j)];
         let (from, to) = path.leg_at(random.f64());
         let lasts = self.problem.task.duration.upper * (to - from);
+        let turns = random.u32(1..=MOST_TURNS);
         for (radius, joint) in radii.iter_mut().zip([i, j]) {
             let fastest = self.problem.limits.joint_velocity[joint].upper;
-            *radius = radius.min(SHARE * fastest * lasts / LOOP_RATE);
+            *radius = radius.min(SHARE * fastest * lasts / (LOOP_RATE * f64::from(turns)));
         }
         Loop {
             joints: [i, j],
             radii,
             phase: random.f64() * TAU,
-            turns: if random.bool() { 1.0 } else { -1.0 },
+            turns: f64::from(turns) * if random.bool() { 1.0 } else { -1.0 },
             from,
             to,
         }

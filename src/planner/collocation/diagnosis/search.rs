@@ -38,9 +38,10 @@ const GROSS_STARTS: usize = 3;
 /// Weight of the problem's own cost, so that the least relaxation is not degenerate.
 const REGULARIZATION: f64 = 1e-5;
 /// Weights of the control in the searches, each as the part of the excess along the straight path
-/// that the least control from start to goal costs. The larger keeps motions smooth, the smaller finds
-/// those that need much control.
-const SEARCHED: [f64; 2] = [1e-4, 1e-6];
+/// that the least control from start to goal costs, and into how many each segment of the first mesh is
+/// cut. The larger weight keeps motions smooth. The smaller finds those that need much control: several
+/// loops, between whose points a coarse mesh would hide what no motion can.
+const SEARCHED: [(f64, usize); 2] = [(1e-4, 1), (1e-6, 2)];
 /// Weights of the control in the refinement, one after another, from one that is at most so many times
 /// that of the search: what was found on a coarse mesh is hardly a motion yet.
 const FIRST_WEIGHT: f64 = 5.0;
@@ -82,8 +83,8 @@ struct Candidate {
     excess: f64,
     /// The largest error (28).
     error: f64,
-    /// The trajectory with the amounts among its static parameters.
-    trajectory: Discretization,
+    /// The trajectory with the amounts among its static parameters, and its multipliers.
+    start: Start,
 }
 
 impl Candidate {
@@ -135,7 +136,10 @@ impl Candidates {
             part,
             excess,
             error,
-            trajectory: outcome.trajectory.clone(),
+            start: Start {
+                trajectory: outcome.trajectory.clone(),
+                iterate: Some(outcome.iterate.clone()),
+            },
         };
         self.found.insert(place, candidate);
         let gross = self.found.iter().all(Candidate::is_gross);
@@ -169,8 +173,9 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             interrupted: false,
         };
         let mut candidates = Vec::new();
-        for part in SEARCHED {
-            let feasible = self.try_starts(part, &elastic(part), &patterns, &mut found)?;
+        for (part, cuts) in SEARCHED {
+            let searched = elastic(part);
+            let feasible = self.try_starts((part, cuts), &searched, &patterns, &mut found)?;
             candidates.extend(feasible);
             let held = candidates.iter().any(|candidate| candidate.excess < HELD);
             if held || found.interrupted || self.deadline.has_passed() {
@@ -185,7 +190,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             if candidate.part <= WEIGHTS[WEIGHTS.len() - 1] && candidate.excess > least {
                 continue;
             }
-            let motion = || strip(&candidate.trajectory, &elastic(candidate.part));
+            let motion = || strip(&candidate.start.trajectory, &elastic(candidate.part));
             found.trajectory.get_or_insert_with(motion);
             let converged =
                 self.descend(&candidate, &elastic, &patterns, &mut found, &mut least)?;
@@ -207,10 +212,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         found: &mut Found,
         least: &mut f64,
     ) -> Result<bool, PlanError> {
-        let mut from = Start {
-            trajectory: candidate.trajectory.clone(),
-            iterate: None,
-        };
+        let mut from = candidate.start.clone();
         let mut before = f64::INFINITY;
         for part in WEIGHTS
             .into_iter()
@@ -244,17 +246,19 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         Ok(before.is_finite())
     }
 
-    /// Solves `elastic`, in which the control's weight is `part`, on the first mesh from one start after
-    /// another.
+    /// Solves `elastic`, in which the control's weight is `part`, on the first mesh, its segments cut
+    /// in so many, from one start after another.
     fn try_starts(
         &mut self,
-        part: f64,
+        (part, cuts): (f64, usize),
         elastic: &Elastic<'_, FreeFloating<Sp>>,
         patterns: &Patterns,
         found: &mut Found,
     ) -> Result<Vec<Candidate>, PlanError> {
         let fractions = self.system.formulation().way_point_fractions();
-        let mesh = self.settings(1).first_mesh()?.through(&fractions)?;
+        let mut settings = self.settings(1);
+        settings.segments *= cuts;
+        let mesh = settings.first_mesh()?.through(&fractions)?;
         let starts = system::Starts::new(self.problem, self.system, SEED);
         let mut candidates = Candidates::default();
         for start in 0..STARTS {
