@@ -43,6 +43,21 @@ fn the_peak_is_the_largest_angle_and_no_larger() {
     assert!((terms.total() - plan.objective).abs() < 1e-6);
 }
 
+/// The hand goes 2.7 m; the straight path to the same joint positions turns the base by 11.7°.
+#[test]
+fn the_shipped_arm_keeps_its_base_still() {
+    let file = ProblemFile::load("config/still-base.toml".as_ref(), &Overrides::default());
+    let problem = file.unwrap().problem;
+    let plan = solved(&problem);
+    assert!(plan.metrics.max_base_attitude.to_degrees() < 0.25);
+    let straight = Baselines::of(&problem, &plan.discretization)
+        .straight
+        .unwrap();
+    assert!(straight.largest.to_degrees() > 11.0);
+    let verification = plan.verification.as_ref().unwrap();
+    assert!(verification.max_base_attitude_drift.to_degrees() < 1e-3);
+}
+
 #[test]
 fn a_bound_at_the_peak_gives_the_same_motion() {
     let plan = solved(&peaked());
