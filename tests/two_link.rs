@@ -129,6 +129,7 @@ fn both_forms_of_the_dynamics_plan_the_same() {
             problem.limits.base_rate = spatial.limits.base_rate;
             problem.limits.base_position = spatial.limits.base_position;
             problem.cost.base_position = spatial.cost.base_position;
+            problem.cost.base_attitude = spatial.cost.base_attitude;
             problem.task.initial_momentum = spatial.task.initial_momentum;
             problem.task.initial_base_attitude = spatial.task.initial_base_attitude;
         })

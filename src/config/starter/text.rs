@@ -97,11 +97,10 @@ const REST: &str = "[limits]  # joint limits are the URDF's; a number holds for 
 # base_attitude = 0.1        # rad, along the whole path
 # final_base_attitude = 0.01 # rad, at the end
 
-[cost]  # weights
-final_base_attitude = 1.0  # of the base's turn at the end, squared
-base_rate = 0.6            # of ∫‖η̇‖²: how much it turns on its way
-joint_rate = 0.2           # of ∫‖θ̇‖²
-control = 0.1              # of ∫‖u‖²; keeps accelerations smooth
+[cost]
+preset = \"still\"           # weights by the task's own sizes: the base first, along the path and at
+                           # the end; \"gentle\": in balance with the joints' effort
+# peak_base_attitude = 1.0 # a weight of one's own comes on top, or instead of the preset's
 
 [mesh]
 segments = 10

@@ -89,6 +89,11 @@ const DETOURS: Interval = Interval {
     lower: 2.4,
     upper: 4.8,
 };
+/// The same of few joints, which are led around what is in their way rather than far aside.
+const DETOURS_OF_FEW: Interval = Interval {
+    lower: 0.6,
+    upper: 2.4,
+};
 /// Standard deviation of a detour on top of an optimum, as a part of [`Starts::reach`].
 const BUMP: f64 = 3.0;
 /// Radius that a joint without limits may go, rad.
@@ -236,10 +241,14 @@ impl<'a> Starts<'a> {
     fn detour(&self, random: &mut fastrand::Rng) -> JointPath {
         let task = &self.problem.task;
         let points = random.usize(1..=2);
+        let sizes = match self.reach.len() < MANY {
+            true => DETOURS_OF_FEW,
+            false => DETOURS,
+        };
         let legs = task.way_points.len() + 1;
         let aside = |k: usize, random: &mut fastrand::Rng| -> Vec<f64> {
             let along = (k + 1) as f64 / (points * legs + 1) as f64;
-            let size = between(random, DETOURS);
+            let size = between(random, sizes);
             let mut joint = |j: usize| {
                 let (a, b) = (task.initial_joints[j], task.final_joints[j]);
                 let straight = a + along * (b - a);

@@ -36,7 +36,7 @@ pub(super) struct Diagnosed {
 /// Solves `problem` with elastic limits from many starts.
 ///
 /// Limits on the base are requirements, limits on the joints are hardware: only where relaxing
-/// the former does not do are the latter relaxed as well.
+/// the former leads to no motion are the latter relaxed as well.
 pub(super) fn diagnose<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
@@ -59,14 +59,13 @@ pub(super) fn diagnose<Sp: Space>(
     if !base.is_empty() {
         found = search.run(base)?;
     }
-    if matches!(
-        found,
-        None | Some(Found {
-            trajectory: None,
-            ..
-        })
-    ) {
-        found = search.run(limits)?;
+    if found.as_ref().is_none_or(Found::is_no_motion) {
+        let all = search.run(limits)?;
+        let is_better = |all: &Found| found.is_none() || !all.is_no_motion();
+        found = match all {
+            Some(all) if is_better(&all) => Some(all),
+            _ => found,
+        };
     }
     let statistics = search.statistics;
     let none = |interrupted| Diagnosed {

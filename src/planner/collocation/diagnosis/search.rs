@@ -66,6 +66,13 @@ pub(super) struct Found {
     pub interrupted: bool,
 }
 
+impl Found {
+    /// Whether no start led to what a finer mesh confirms.
+    pub fn is_no_motion(&self) -> bool {
+        self.trajectory.is_none() || !self.converged
+    }
+}
+
 pub(super) struct Search<'a, 'm, Sp: Space> {
     pub problem: &'a Problem,
     pub system: &'a FreeFloating<Sp>,
