@@ -84,7 +84,7 @@ impl<Sp: Space> Plant<Sp> {
         let mut moved = self.base_position(eta, t, center);
         let start = self.start_position.components();
         for (z, &z0) in moved.components_mut().iter_mut().zip(start) {
-            *z = *z - z0;
+            *z -= z0;
         }
         moved
     }

@@ -21,7 +21,7 @@ pub(super) struct FirstMesh<'a, Sp: Space> {
     problem: &'a Problem,
     system: &'a FreeFloating<Sp>,
     patterns: Patterns,
-    starts: Starts<'a>,
+    starts: Starts<'a, Sp>,
     /// Trajectories that are no joint paths, tried after the straight path.
     others: Vec<(StartKind, Discretization)>,
     mesh: Mesh,

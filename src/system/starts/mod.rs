@@ -3,13 +3,16 @@
 //! The optima of one task differ by the way round they take: what turns the base back is a loop in
 //! joint space, by the curvature of the momentum connection over the area it encloses. Small changes
 //! of a start lead back to the same optimum, so loops and detours are wide: as wide as the joints'
-//! limits and rates allow, up to more than a radian.
+//! limits and rates allow, up to more than a radian. Where bodies are kept apart, a way round them is
+//! drawn again until one is free: a solver seldom pushes a path out of what it leads through.
 //!
 //! | file | does |
 //! | --- | --- |
+//! | `apart` | how deep a path leads into what is kept apart from the arm |
 //! | `curvature` | which pairs of joints turn the base most by a loop |
 //! | `perturb` | a detour or a loop on top of a trajectory |
 
+mod apart;
 mod curvature;
 mod perturb;
 
@@ -20,6 +23,7 @@ use crate::dynamics::space::Space;
 use crate::ocp::Interval;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
+use apart::Apart;
 use curvature::{Plane, planes};
 use perturb::{OnTop, perturbed};
 use serde::{Deserialize, Serialize};
@@ -112,19 +116,23 @@ const NARROWINGS: usize = 4;
 /// Samples that tell whether a path leaves the joints' limits.
 const SAMPLES: usize = 48;
 
+/// Draws of a path in search of one that keeps apart what has to be.
+const DRAWS: usize = 32;
+
 /// Joint paths to begin with, by number.
 #[derive(Debug)]
-pub(crate) struct Starts<'a> {
+pub(crate) struct Starts<'a, Sp: Space> {
     problem: &'a Problem,
+    apart: Apart<'a, Sp>,
     planes: Vec<Plane>,
     /// How far each joint may go, rad or m.
     reach: Vec<f64>,
     seed: u64,
 }
 
-impl<'a> Starts<'a> {
+impl<'a, Sp: Space> Starts<'a, Sp> {
     /// Those of `problem`, whose system is `system`, by `seed`.
-    pub fn new<Sp: Space>(problem: &'a Problem, system: &FreeFloating<Sp>, seed: u64) -> Self {
+    pub fn new(problem: &'a Problem, system: &'a FreeFloating<Sp>, seed: u64) -> Self {
         let task = &problem.task;
         let ends = task.initial_joints.iter().zip(&task.final_joints);
         let middle: Vec<f64> = ends.map(|(a, b)| 0.5 * (a + b)).collect();
@@ -137,6 +145,7 @@ impl<'a> Starts<'a> {
         planes.sort_by(|a, b| b.turn.total_cmp(&a.turn));
         Self {
             problem,
+            apart: Apart::new(system),
             planes,
             reach,
             seed,
@@ -157,11 +166,31 @@ impl<'a> Starts<'a> {
         };
         let kind = turns[turn % turns.len()];
         let path = match kind {
-            StartKind::Loop if !self.planes.is_empty() => self.looped(&mut random),
+            StartKind::Loop if !self.planes.is_empty() => self.free(|| self.looped(&mut random)),
             StartKind::OtherGoal => return (kind, self.to_another_goal(&mut random)),
-            _ => return (StartKind::Detour, self.detour(&mut random)),
+            _ => {
+                let path = self.free(|| self.detour(&mut random));
+                return (StartKind::Detour, path);
+            }
         };
         (kind, path)
+    }
+
+    /// The first of many paths that keeps apart what has to be, or the one that overlaps least.
+    fn free(&self, mut draw: impl FnMut() -> JointPath) -> JointPath {
+        let mut best = draw();
+        let mut least = self.apart.overlap(&best);
+        for _ in 1..DRAWS {
+            if least <= 0.0 {
+                break;
+            }
+            let path = draw();
+            let overlap = self.apart.overlap(&path);
+            if overlap < least {
+                (best, least) = (path, overlap);
+            }
+        }
+        best
     }
 
     /// Random numbers of start `index` alone, so that none depends on how many were drawn before.

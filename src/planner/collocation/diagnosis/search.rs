@@ -361,7 +361,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
     }
 
     /// The failed trajectory first, then the straight path and others.
-    fn start(&self, index: usize, mesh: &Mesh, starts: &system::Starts<'_>) -> Discretization {
+    fn start(&self, index: usize, mesh: &Mesh, starts: &system::Starts<'_, Sp>) -> Discretization {
         if index == 0 {
             return self.failed.resample(mesh.clone());
         }
