@@ -13,7 +13,9 @@
 //!   together to have no fewer points than the segment had: n parts of a segment of N points get
 //!   max(`points`, ⌈N/n⌉) each. A cut must not take away the accuracy that is there.
 //! - A segment that is accurate but exceeds a bound between its nodes is cut in two at the place of
-//!   the largest violation, which becomes a node; in four where what exceeds its bound may jump.
+//!   the largest violation, which becomes a node, and in three where that is near an end of the
+//!   segment: on the mesh after the excess comes back in the long part. It is cut in four where what
+//!   exceeds its bound may jump.
 //!
 //! Derived in docs/algorithms.md#adaptive-law.
 
@@ -41,10 +43,22 @@ fn error_before(assessment: &Assessment<'_>, s: usize) -> Option<f64> {
 /// Where in a segment a cut for the sake of a bound may be, |τ|: not so near its end that one of
 /// the parts is of no use.
 const OUTERMOST: f64 = 0.9;
+/// Distance from the middle, |τ|, from which on the longer part is cut as well.
+const NEAR_AN_END: f64 = 0.8;
 
 /// Where a segment is cut in which a control jumps: the jump stays in one of the parts, wherever it
 /// is, and its overshoot lasts a quarter as long.
 const QUARTERS: [f64; 3] = [-0.5, 0.0, 0.5];
+
+/// The cuts of a segment one of whose nodes is to be at `place`.
+fn cuts_at(place: f64) -> Vec<f64> {
+    let half_of_the_rest = 0.5 * (place - place.signum());
+    match place {
+        _ if place > NEAR_AN_END => vec![half_of_the_rest, place],
+        _ if place < -NEAR_AN_END => vec![place, half_of_the_rest],
+        _ => vec![place],
+    }
+}
 
 /// Mesh iterations without a limit of the user's.
 const MOST: usize = 40;
@@ -178,7 +192,7 @@ impl Law<'_> {
             .map_or(Change::Keep, |worst| {
                 Change::Divide(match worst.jumps {
                     true => QUARTERS.to_vec(),
-                    false => vec![worst.tau.clamp(-OUTERMOST, OUTERMOST)],
+                    false => cuts_at(worst.tau.clamp(-OUTERMOST, OUTERMOST)),
                 })
             })
     }
@@ -309,10 +323,13 @@ mod tests {
     fn bounds_ask_for_a_cut_where_the_error_asks_for_nothing() {
         assert_eq!(refine(5, 1.0, 1e-5, None), None);
         assert_eq!(refine(5, 1.0, 1e-9, Some((0.2, 1e-3))), None);
-        // Not nearer than |τ| = 0.9 to an end: fraction 0.95.
+        // Not nearer than |τ| = 0.9 to an end: fraction 0.95, and half of the rest.
         let next = refine(5, 1.0, 1e-9, Some((0.99, f64::INFINITY))).unwrap();
-        assert_eq!(next.decisions, [Decision::Divide(2)]);
-        assert_eq!(next.mesh.breakpoints(), [0.0, 0.95, 1.0]);
+        assert_eq!(next.decisions, [Decision::Divide(3)]);
+        assert_eq!(next.mesh.breakpoints(), [0.0, 0.475, 0.95, 1.0]);
+        let next = refine(5, 1.0, 1e-9, Some((-0.85, 1.0))).unwrap();
+        let breakpoints = next.mesh.breakpoints();
+        assert!((breakpoints[1] - 0.075).abs() < 1e-12 && (breakpoints[2] - 0.5375).abs() < 1e-12);
     }
 
     #[test]
