@@ -2,10 +2,12 @@
 
 use super::failure::Failure;
 use super::progress::Progress;
+use super::search::SearchArguments;
 use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::{Method, Status};
+use crate::refine;
 use crate::report::{ComparisonReport, FileSet, OutputFolder, comparison_figure};
 use crate::study::Comparison;
 use clap::Args;
@@ -17,6 +19,8 @@ pub(super) struct Arguments {
     /// Problem file
     #[arg(value_name = "PROBLEM.toml")]
     problem: PathBuf,
+    #[command(flatten)]
+    search: SearchArguments,
     /// Folder to write to [default: out/<problem name>-compare]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -39,6 +43,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut overrides = Overrides::of(&arguments.set)?;
     overrides.repair(arguments.repair);
     let file = ProblemFile::load(&arguments.problem, &overrides)?;
+    let adaptive = Method::Collocation(refine::Method::Adaptive);
+    let search = arguments.search.of(adaptive)?.map(|(search, _)| search);
     super::plan::say(&file);
     let problem = &file.problem;
     let default = || Path::new("out").join(format!("{}-compare", problem.name));
@@ -47,9 +53,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     interrupt::listen();
 
     let mut progress = Progress::start(&problem.name, false);
-    let found = Comparison::plan(problem, &mut |method, event| {
+    let found = Comparison::plan(problem, search.as_ref(), &mut |method, event| {
         progress.retitle(&format!("{}, {}", problem.name, method.name()));
-        progress.show(event)
+        progress.show_search(event)
     });
     progress.finish();
     let found = found.map_err(|error| Failure::planning(&file, None, error))?;
@@ -96,7 +102,8 @@ fn add(
         match found.by(method) {
             Some(plan) => {
                 let own = OutputFolder::create(&own)?;
-                super::plan::add(file, plan, None, &own, set)?;
+                let optima = found.optima.as_ref().filter(|_| method == Method::ALL[0]);
+                super::plan::add(file, plan, optima, &own, set)?;
             }
             None if own.is_dir() => super::plan::remove(&OutputFolder::create(&own)?, set),
             None => {}

@@ -2,20 +2,23 @@
 
 use super::failure::Failure;
 use super::progress::Progress;
+use super::search::SearchArguments;
 use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
-use crate::planner::Status;
+use crate::planner::{Method, Status};
 use crate::report::{FileSet, OutputFolder, ParetoReport};
 use crate::study::pareto::{ParetoFront, balanced, factors};
+use crate::study::search::SearchEvent;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Sweep the weight of the base's motion against that of the joints' effort
 ///
 /// The weights of the cost that are about the base (final attitude and position, base rate) are
 /// multiplied by a factor, in even ratios; those about the joints stay. Every plan starts from the
-/// last one.
+/// last one; further points are planned where neighbours are farthest apart.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Problem file
@@ -30,6 +33,14 @@ pub(super) struct Arguments {
     /// Largest factor on the base's weights
     #[arg(long, value_name = "FACTOR", default_value_t = 100.0, value_parser = factor)]
     to: f64,
+    /// Further points, where neighbours are farthest apart [default: a third of --points]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=1000))]
+    fill: Option<u16>,
+    #[command(flatten)]
+    search: SearchArguments,
+    /// Limit on the time of the whole curve, shared out among its points
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time_limit: Option<Duration>,
     /// Folder to write to [default: out/<problem name>-pareto]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -52,6 +63,11 @@ fn factor(text: &str) -> Result<f64, String> {
     }
 }
 
+fn seconds(text: &str) -> Result<Duration, String> {
+    let number = factor(text)?;
+    Duration::try_from_secs_f64(number).map_err(|error| error.to_string())
+}
+
 /// Plans, writes, prints.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if arguments.from >= arguments.to {
@@ -63,6 +79,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut overrides = Overrides::of(&arguments.set)?;
     overrides.repair(arguments.repair);
     let file = ProblemFile::load(&arguments.problem, &overrides)?;
+    let method = Method::Collocation(file.problem.mesh.method);
+    let search = arguments.search.of(method)?;
     super::plan::say(&file);
     let default = || Path::new("out").join(format!("{}-pareto", file.problem.name));
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
@@ -72,10 +90,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut progress = Progress::start(&problem.name, false);
     let factors = factors(arguments.from, arguments.to, arguments.points);
     let mut front = ParetoFront::new(&problem);
-    let swept = front.sweep(&factors, &mut |factor, event| {
+    if let Some((search, _)) = search {
+        front = front.searching(search);
+    }
+    if let Some(limit) = arguments.time_limit {
+        front = front.within(limit);
+    }
+    let further = usize::from(arguments.fill.unwrap_or(arguments.points / 3));
+    let mut monitor = |factor: f64, event: &SearchEvent<'_>| {
         progress.retitle(&format!("{}, base × {factor:.3e}", problem.name));
-        progress.show(event)
-    });
+        progress.show_search(event)
+    };
+    let swept = front
+        .sweep(&factors, &mut monitor)
+        .and_then(|()| front.fill(further, &mut monitor));
     progress.finish();
     swept.map_err(|error| Failure::planning(&file, None, error))?;
 

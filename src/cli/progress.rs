@@ -90,6 +90,7 @@ impl Progress {
     /// Shows a step of a search.
     pub(super) fn show_search(&mut self, event: &SearchEvent<'_>) -> Control {
         let message = match event {
+            SearchEvent::Refining { of: 1, event, .. } => return self.show(event),
             SearchEvent::Tried { tried, of, best } => {
                 let best = match best.is_finite() {
                     true => format!(", J {best:.6} at best"),

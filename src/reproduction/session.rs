@@ -10,6 +10,7 @@ use crate::simulate::SimulateError;
 use crate::solution::SolutionError;
 use crate::study::Comparison;
 use crate::study::pareto::ParetoFront;
+use crate::study::search::SearchEvent;
 use rustix::time::{ClockId, clock_gettime};
 
 /// Why nothing came of it.
@@ -76,7 +77,7 @@ pub struct Run {
 
 /// Plans one after another; the monitor is told and can stop it.
 pub struct Session<'m> {
-    monitor: &'m mut dyn FnMut(Step<'_>) -> Control,
+    monitor: &'m mut (dyn FnMut(Step<'_>) -> Control + Send),
 }
 
 impl std::fmt::Debug for Session<'_> {
@@ -87,7 +88,7 @@ impl std::fmt::Debug for Session<'_> {
 
 impl<'m> Session<'m> {
     /// A session that tells `monitor` of every step.
-    pub fn new(monitor: &'m mut dyn FnMut(Step<'_>) -> Control) -> Self {
+    pub fn new(monitor: &'m mut (dyn FnMut(Step<'_>) -> Control + Send)) -> Self {
         Self { monitor }
     }
 
@@ -105,6 +106,14 @@ impl<'m> Session<'m> {
     /// Passes a step of planning on to the monitor.
     pub(super) fn show(&mut self, event: &Event<'_>) -> Control {
         (self.monitor)(Step::Event(event))
+    }
+
+    /// The same of a step that a search may be part of.
+    fn show_step(&mut self, event: &SearchEvent<'_>) -> Control {
+        match event {
+            SearchEvent::Refining { event, .. } => self.show(event),
+            SearchEvent::Tried { .. } => Control::Continue,
+        }
     }
 
     /// Plans `problem` with a fresh planner, by the method of its mesh.
@@ -147,8 +156,8 @@ impl<'m> Session<'m> {
     pub fn compare(&mut self, problem: &Problem) -> Result<Comparison, ReproductionError> {
         let title = format!("{} by every planner", problem.name);
         self.begin(&title)?;
-        let mut told = |_, event: &Event<'_>| self.show(event);
-        let found = Comparison::plan(problem, &mut told)
+        let mut told = |_, event: &SearchEvent<'_>| self.show_step(event);
+        let found = Comparison::plan(problem, None, &mut told)
             .map_err(|cause| ReproductionError::Plan { title, cause })?;
         let plans = found
             .entries
@@ -171,7 +180,7 @@ impl<'m> Session<'m> {
         let title = format!("{name}, base motion against joint effort");
         self.begin(&title)?;
         front
-            .sweep(factors, &mut |_, event| self.show(event))
+            .sweep(factors, &mut |_, event| self.show_step(event))
             .map_err(|cause| ReproductionError::Plan { title, cause })?;
         refuse_interrupted(front.points().iter().map(|point| &point.plan))
     }

@@ -1,9 +1,10 @@
 //! One task by every planner.
 
 use crate::nlp::Control;
-use crate::planner::{Event, Method, Plan, PlanError, Planner, Status};
+use crate::planner::{Method, Plan, PlanError, Planner, Status};
 use crate::problem::{Problem, ProblemError};
 use crate::refine;
+use crate::study::search::{Optima, Search, SearchEvent};
 
 /// What one planner made of the task.
 #[derive(Debug, Clone)]
@@ -15,18 +16,26 @@ pub struct Entry {
     pub plan: Result<Plan, String>,
 }
 
+/// The planner of this program.
+const ADAPTIVE: Method = Method::Collocation(refine::Method::Adaptive);
+
 /// One task by every planner.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct Comparison {
     /// In the order of [`Method::ALL`], A-RPM first; fewer where it was interrupted.
     pub entries: Vec<Entry>,
+    /// What the search of A-RPM found, where there was one.
+    pub optima: Option<Optima>,
     /// What a reader should know of how the planners were asked, a sentence each.
     pub notes: Vec<String>,
 }
 
+/// What is told of every step: the planner, and the step.
+type Monitor<'m> = dyn FnMut(Method, &SearchEvent<'_>) -> Control + Send + 'm;
+
 impl Comparison {
-    /// Plans `problem` by every method, each from nothing.
+    /// Plans `problem` by every method, each from nothing, A-RPM by `search` where there is one.
     ///
     /// Planners that know joint goals alone get the joint positions at which A-RPM ended where the
     /// task is a goal for the end effector. Where the monitor stops a plan, the entries until then
@@ -37,7 +46,8 @@ impl Comparison {
     /// an entry without a plan.
     pub fn plan(
         problem: &Problem,
-        monitor: &mut dyn FnMut(Method, &Event<'_>) -> Control,
+        search: Option<&Search>,
+        monitor: &mut Monitor<'_>,
     ) -> Result<Self, PlanError> {
         let mut found = Self::default();
         let mut in_joints = Ok(problem.clone());
@@ -54,10 +64,26 @@ impl Comparison {
             } else {
                 in_joints.as_ref()
             };
-            let mut told = |event: &Event<'_>| monitor(method, event);
-            let plan = match task {
-                Ok(task) => Planner::new().plan_by(method, task, None, &mut told),
-                Err(error) => Err(error.clone().into()),
+            let plan = match (task, search) {
+                (Ok(task), Some(search)) if method == ADAPTIVE => {
+                    let problem =
+                        task.edited(|problem| problem.mesh.method = refine::Method::Adaptive);
+                    let told = &mut |event: &SearchEvent<'_>| monitor(method, event);
+                    search.run(&problem?, None, told).map(|searched| {
+                        found.optima = Some(searched.optima);
+                        searched.plan
+                    })
+                }
+                (Ok(task), _) => Planner::new().plan_by(method, task, None, &mut |&event| {
+                    let (candidate, of) = (1, 1);
+                    let event = SearchEvent::Refining {
+                        candidate,
+                        of,
+                        event,
+                    };
+                    monitor(method, &event)
+                }),
+                (Err(error), _) => Err(error.clone().into()),
             };
             let plan = match plan {
                 Ok(plan) => Ok(plan),
@@ -102,6 +128,6 @@ fn in_joint_space_note() -> String {
         "The task is a goal for the end effector. Planners in joint space were given the joint \
          positions at which {} ends; with another base motion they leave the end effector \
          elsewhere.",
-        Method::Collocation(refine::Method::Adaptive).name()
+        ADAPTIVE.name()
     )
 }

@@ -138,6 +138,8 @@ fn pareto_trades_base_motion_for_joint_effort() {
         "case.toml",
         "--points",
         "4",
+        "--fill",
+        "0",
         "--out",
         "front",
         "--json",
@@ -169,6 +171,55 @@ fn pareto_trades_base_motion_for_joint_effort() {
     let run = folder.run(&["pareto", "case.toml", "--from", "2", "--to", "1"]);
     assert_eq!(run.code, 2);
     assert_eq!(run.stderr, "--from 2 is not below --to 1\n");
+}
+
+#[test]
+fn pareto_fills_gaps_and_searches_within_its_time() {
+    let folder = Folder::new(PROBLEM);
+    let began = std::time::Instant::now();
+    let run = folder.run(&[
+        "pareto",
+        "case.toml",
+        "--points",
+        "3",
+        "--fill",
+        "2",
+        "--search",
+        "2",
+        "--time-limit",
+        "60",
+        "--json",
+    ]);
+    assert_eq!(run.code, 0, "{run:?}");
+    assert!(began.elapsed().as_secs() < 60);
+    let document: Value = serde_json::from_str(&run.stdout).unwrap();
+    let rows = document["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 5, "{rows:?}");
+    let column = |key: &str| rows.iter().map(move |row| row[key].as_f64().unwrap());
+    assert!(column("factor").is_sorted());
+    assert!(column("base_motion").map(|base| -base).is_sorted());
+    assert!(column("joint_effort").is_sorted());
+    // The further points are at the middle of two factors.
+    let of_sweep = |factor: &f64| {
+        let places = [0.01, 1.0, 100.0];
+        places.iter().any(|place| (factor / place - 1.0).abs() < 1e-9)
+    };
+    assert_eq!(column("factor").filter(of_sweep).count(), 3);
+    let refused = folder.run(&["pareto", "case.toml", "--time-limit", "0"]);
+    assert_eq!(refused.code, 2);
+}
+
+#[test]
+fn a_comparison_takes_a_search_for_its_own_planner() {
+    let folder = Folder::new(PROBLEM);
+    let run = folder.run(&["compare", "case.toml", "--search", "3"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    let of = |method: &str| -> Value {
+        let path = format!("out/case-compare/{method}/solution.json");
+        serde_json::from_str(&folder.read(&path)).unwrap()
+    };
+    assert_eq!(of("a-rpm")["search"]["tried"], 3);
+    assert!(of("matpm")["search"].is_null());
 }
 
 #[test]

@@ -1,0 +1,258 @@
+//! The trade-off between the base's motion and the joints' effort.
+//!
+//! The cost (14) is split into what is about the base, B, and what is about the joints, E. Its
+//! minimisers with κB + E instead of B + E, κ from small to large, are points of the Pareto front
+//! of the two: B falls and E rises along it, if no point's motion is better at another's κ than that
+//! point's own.
+//!
+//! | file | does |
+//! | --- | --- |
+//! | `gaps` | where neighbours are farthest apart |
+//! | `weights` | the factors κ, and the cost they weigh |
+
+mod gaps;
+mod weights;
+
+pub use weights::{balanced, factors};
+
+use crate::nlp::{Control, Deadline};
+use crate::planner::{Plan, PlanError, Planner, Status};
+use crate::problem::Problem;
+use crate::refine::Start;
+use crate::study::search::{Search, SearchEvent};
+use crate::system::cost_terms;
+use gaps::widest;
+use std::time::Duration;
+use weights::scaled;
+
+/// One point of the front.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct ParetoPoint {
+    /// Factor κ on the base's weights.
+    pub factor: f64,
+    /// Base motion B, without the factor.
+    pub base: f64,
+    /// Joint effort E.
+    pub joints: f64,
+    /// The plan.
+    pub plan: Plan,
+}
+
+impl ParetoPoint {
+    /// κB + E.
+    fn scalarised(&self, factor: f64) -> f64 {
+        factor * self.base + self.joints
+    }
+
+    fn is_solved(&self) -> bool {
+        self.plan.status == Status::Solved
+    }
+}
+
+/// What is told of every step: the factor of the point that is planned, and the step.
+type Monitor<'m> = dyn FnMut(f64, &SearchEvent<'_>) -> Control + Send + 'm;
+
+/// A sweep over the factor.
+#[derive(Debug)]
+pub struct ParetoFront<'a> {
+    problem: &'a Problem,
+    planner: Planner,
+    search: Option<Search>,
+    deadline: Deadline,
+    points: Vec<ParetoPoint>,
+}
+
+/// Relative gain for which a point is planned again from a neighbour's motion.
+const GAIN: f64 = 1e-6;
+/// Passes over all points in which motions are handed to neighbours.
+const PASSES: usize = 3;
+
+impl<'a> ParetoFront<'a> {
+    /// The front of `problem`, whose cost should have weights on both sides, see [`balanced`].
+    pub fn new(problem: &'a Problem) -> Self {
+        Self {
+            problem,
+            planner: Planner::new(),
+            search: None,
+            deadline: Deadline::after(None),
+            points: Vec::new(),
+        }
+    }
+
+    /// The same with a search from many starts at every point, the plan before among them.
+    pub fn searching(self, search: Search) -> Self {
+        Self {
+            search: Some(search),
+            ..self
+        }
+    }
+
+    /// The same within `limit` from now on, shared out among the points: each has an even part of what
+    /// is left.
+    pub fn within(self, limit: Duration) -> Self {
+        Self {
+            deadline: Deadline::after(Some(limit)),
+            ..self
+        }
+    }
+
+    /// The points found so far, in the order of their factors.
+    pub fn points(&self) -> &[ParetoPoint] {
+        &self.points
+    }
+
+    /// Plans for every factor in turn, each from the plan before.
+    ///
+    /// The problem is not convex, and a plan may stay with a motion that another has become better
+    /// than. Where a neighbour's motion has the lower cost at a point's own factor, the point is
+    /// planned again from there. Where the monitor stops it, the points until then stay.
+    ///
+    /// # Errors
+    /// [`PlanError`] as of [`Planner::plan_with`].
+    pub fn sweep(&mut self, factors: &[f64], monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
+        for (k, &factor) in factors.iter().enumerate() {
+            let from = self.points.len().checked_sub(1);
+            let (search, left) = (self.search.clone(), factors.len() - k);
+            let point = self.plan((factor, from), (search, left), monitor)?;
+            let stopped = point.plan.status == Status::Interrupted;
+            self.points.push(point);
+            if stopped {
+                return Ok(());
+            }
+        }
+        self.hand_on(monitor)
+    }
+
+    /// Up to `count` further points, one after another where solved neighbours are farthest apart, at
+    /// the factor in the middle of theirs.
+    ///
+    /// Fewer where no factor leads in between: a part of the front that is not convex has no minimiser
+    /// of a weighted sum.
+    ///
+    /// # Errors
+    /// [`PlanError`] as of [`Planner::plan_with`].
+    pub fn fill(&mut self, count: usize, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
+        let mut closed = Vec::new();
+        for left in (1..=count).rev() {
+            if self.is_over() {
+                break;
+            }
+            let Some(k) = widest(&self.points, &closed) else {
+                break;
+            };
+            let factor = (self.points[k].factor * self.points[k + 1].factor).sqrt();
+            let search = self.search.clone();
+            let point = self.plan((factor, Some(k)), (search, left), monitor)?;
+            if gaps::is_at_an_end(&point, &self.points[k..k + 2]) {
+                closed.push(self.points[k].factor);
+            }
+            self.points.insert(k + 1, point);
+            self.hand_on(monitor)?;
+        }
+        Ok(())
+    }
+
+    /// Hands motions to neighbours where they are better, down and up, until none is.
+    fn hand_on(&mut self, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
+        let count = self.points.len();
+        for _ in 0..PASSES {
+            let mut gained = false;
+            // Down, then up: a better motion may serve several points in a row.
+            let down = (1..count).rev().map(|k| (k - 1, k));
+            for (k, neighbour) in down.chain((1..count).map(|k| (k, k - 1))) {
+                if self.is_over() {
+                    return Ok(());
+                }
+                gained |= self.improve(k, neighbour, monitor)?;
+            }
+            if !gained {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Plans point `k` again from the motion of `neighbour` where that is better; whether it gained.
+    fn improve(
+        &mut self,
+        k: usize,
+        neighbour: usize,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<bool, PlanError> {
+        let [own, other] = [k, neighbour].map(|i| &self.points[i]);
+        let factor = own.factor;
+        let better = other.scalarised(factor) < own.scalarised(factor) * (1.0 - GAIN);
+        if !other.is_solved() || own.is_solved() && !better {
+            return Ok(false);
+        }
+        let point = self.plan((factor, Some(neighbour)), (None, 1), monitor)?;
+        let own = &self.points[k];
+        let gains = point.scalarised(factor) < own.scalarised(factor) * (1.0 - GAIN);
+        let keep = point.is_solved() && (gains || !own.is_solved());
+        if keep {
+            self.points[k] = point;
+        }
+        Ok(keep)
+    }
+
+    /// Whether the monitor stopped a plan, or the time is over.
+    fn is_over(&self) -> bool {
+        let stopped = |point: &ParetoPoint| point.plan.status == Status::Interrupted;
+        self.deadline.has_passed() || self.points.iter().any(stopped)
+    }
+
+    /// The point of a factor, from the motion of another point, by a search where there is one, in an
+    /// even part of the time left for so many points.
+    fn plan(
+        &mut self,
+        (factor, from): (f64, Option<usize>),
+        (search, left): (Option<Search>, usize),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<ParetoPoint, PlanError> {
+        let problem = self.within_share(scaled(self.problem, factor)?, left)?;
+        let usable = |status| status == Status::Solved || status == Status::NotConverged;
+        let start = from
+            .map(|k| &self.points[k].plan)
+            .filter(|plan| usable(plan.status))
+            .map(|plan| Start {
+                trajectory: plan.discretization.clone(),
+                iterate: Some(plan.iterate.clone()),
+            });
+        let plan = match search {
+            Some(search) => {
+                let told = &mut |event: &SearchEvent<'_>| monitor(factor, event);
+                search.run(&problem, start.as_ref(), told)?.plan
+            }
+            None => self
+                .planner
+                .plan_with(&problem, start.as_ref(), &mut |&event| {
+                    let (candidate, of) = (1, 1);
+                    let event = SearchEvent::Refining {
+                        candidate,
+                        of,
+                        event,
+                    };
+                    monitor(factor, &event)
+                })?,
+        };
+        let terms = cost_terms(self.problem, &plan.discretization);
+        Ok(ParetoPoint {
+            factor,
+            base: terms.base(),
+            joints: terms.joints(),
+            plan,
+        })
+    }
+
+    /// `problem` with an even part of the time left, where that is limited, for so many points.
+    fn within_share(&self, problem: Problem, left: usize) -> Result<Problem, PlanError> {
+        let Some(remaining) = self.deadline.remaining() else {
+            return Ok(problem);
+        };
+        let share = remaining.div_f64(left as f64);
+        let own = problem.solver.time_limit;
+        let limit = own.map_or(share, |own| own.min(share));
+        Ok(problem.edited(|problem| problem.solver.time_limit = Some(limit))?)
+    }
+}
