@@ -195,14 +195,16 @@ fn pareto_fills_gaps_and_searches_within_its_time() {
     let document: Value = serde_json::from_str(&run.stdout).unwrap();
     let rows = document["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 5, "{rows:?}");
-    let column = |key: &str| rows.iter().map(move |row| row[key].as_f64().unwrap());
+    let column = |key: &'static str| rows.iter().map(move |row| row[key].as_f64().unwrap());
     assert!(column("factor").is_sorted());
     assert!(column("base_motion").map(|base| -base).is_sorted());
     assert!(column("joint_effort").is_sorted());
     // The further points are at the middle of two factors.
     let of_sweep = |factor: &f64| {
         let places = [0.01, 1.0, 100.0];
-        places.iter().any(|place| (factor / place - 1.0).abs() < 1e-9)
+        places
+            .iter()
+            .any(|place| (factor / place - 1.0).abs() < 1e-9)
     };
     assert_eq!(column("factor").filter(of_sweep).count(), 3);
     let refused = folder.run(&["pareto", "case.toml", "--time-limit", "0"]);

@@ -1,6 +1,6 @@
 //! Where the points of a front are farthest apart.
 
-use super::ParetoPoint;
+use super::point::ParetoPoint;
 
 /// Part of the distance of two neighbours within which a point between them is at one of them.
 const AT_AN_END: f64 = 0.05;

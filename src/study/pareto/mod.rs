@@ -8,15 +8,18 @@
 //! | file | does |
 //! | --- | --- |
 //! | `gaps` | where neighbours are farthest apart |
+//! | `point` | one point of the front |
 //! | `weights` | the factors κ, and the cost they weigh |
 
 mod gaps;
+mod point;
 mod weights;
 
+pub use point::ParetoPoint;
 pub use weights::{balanced, factors};
 
 use crate::nlp::{Control, Deadline};
-use crate::planner::{Plan, PlanError, Planner, Status};
+use crate::planner::{PlanError, Planner, Status};
 use crate::problem::Problem;
 use crate::refine::Start;
 use crate::study::search::{Search, SearchEvent};
@@ -24,31 +27,6 @@ use crate::system::cost_terms;
 use gaps::widest;
 use std::time::Duration;
 use weights::scaled;
-
-/// One point of the front.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct ParetoPoint {
-    /// Factor κ on the base's weights.
-    pub factor: f64,
-    /// Base motion B, without the factor.
-    pub base: f64,
-    /// Joint effort E.
-    pub joints: f64,
-    /// The plan.
-    pub plan: Plan,
-}
-
-impl ParetoPoint {
-    /// κB + E.
-    fn scalarised(&self, factor: f64) -> f64 {
-        factor * self.base + self.joints
-    }
-
-    fn is_solved(&self) -> bool {
-        self.plan.status == Status::Solved
-    }
-}
 
 /// What is told of every step: the factor of the point that is planned, and the step.
 type Monitor<'m> = dyn FnMut(f64, &SearchEvent<'_>) -> Control + Send + 'm;

@@ -1,11 +1,13 @@
 //! How deep a joint path leads into what is kept apart from the arm.
 
-use super::SAMPLES;
 use crate::dynamics::space::Space;
 use crate::ocp::{Ocp, Point};
 use crate::problem::LimitId;
 use crate::system::free_floating::FreeFloating;
 use crate::system::guess::JointPath;
+
+/// Parts of a path at whose ends limits are asked for.
+pub(super) const SAMPLES: usize = 48;
 
 /// The pairs of bodies that are kept apart.
 #[derive(Debug)]

@@ -23,7 +23,7 @@ use crate::dynamics::space::Space;
 use crate::ocp::Interval;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
-use apart::Apart;
+use apart::{Apart, SAMPLES};
 use curvature::{Plane, planes};
 use perturb::{OnTop, perturbed};
 use serde::{Deserialize, Serialize};
@@ -113,8 +113,6 @@ const SHARE: f64 = 0.9;
 /// Factor by which a loop is narrowed, and how often, where it leaves the joints' limits.
 const NARROWED: f64 = 0.7;
 const NARROWINGS: usize = 4;
-/// Samples that tell whether a path leaves the joints' limits.
-const SAMPLES: usize = 48;
 
 /// Draws of a path in search of one that keeps apart what has to be.
 const DRAWS: usize = 32;
