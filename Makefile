@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test fuzz test-ipopt-3.14 random-tasks test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test fuzz test-ipopt-3.14 random-tasks random-plans test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -19,6 +19,9 @@ test-ipopt-3.14: ## run the tests against a newer Ipopt, 3.14
 
 random-tasks: ## 300 random tasks by our linear solver and by MUMPS, their verdicts compared
 	cargo test --release --locked --test linear_solver three_hundred -- --ignored --nocapture
+
+random-plans: ## 200 random tasks as people bring them, planned to the tolerance, their verdicts counted
+	cargo test --release --locked --test random_plans many_random -- --ignored --nocapture
 
 test-threads: ## four threads solving for a minute, against one thread
 	cargo test --release --locked --test ipopt for_a_minute -- --ignored
