@@ -1,7 +1,8 @@
 //! Random tasks as people bring them, planned to the tolerance: arms of two to nine joints in the plane
 //! and in space, every kind of goal, limit and cost.
 //!
-//! `make random-plans` plans many, as many as `FFSM_RANDOM_PLANS` says.
+//! `make random-plans` plans many: as many as `FFSM_RANDOM_PLANS` says, from the seed
+//! `FFSM_RANDOM_FROM` on.
 
 mod trees;
 
@@ -263,7 +264,10 @@ fn planned(seed: u64, count: usize) -> Tally {
         match plan.status {
             Status::Solved => tally.solved += 1,
             Status::Infeasible => tally.infeasible += 1,
-            _ => tally.neither.push(seed),
+            _ => {
+                tally.neither.push(seed);
+                print_meshes(&problem, &plan);
+            }
         }
         println!(
             "{seed}: {} joints, {:?}, {} points, error {:.1e}, J {:.6}, {seconds:.1} s; {}",
@@ -277,6 +281,26 @@ fn planned(seed: u64, count: usize) -> Tally {
         );
     }
     tally
+}
+
+/// Limits, cost and meshes of what ended neither way.
+fn print_meshes(problem: &Problem, plan: &Plan) {
+    println!(
+        "{:?}\n{:?}\n{:?}",
+        problem.task, problem.limits, problem.cost
+    );
+    for record in &plan.iterations {
+        println!(
+            "  {} segments, {} points: {:?}, {} iterations, error {:.1e}, J {:.6}, {:.1} s",
+            record.segments,
+            record.points,
+            record.nlp_status,
+            record.nlp_iterations,
+            record.max_error,
+            record.objective,
+            record.time.as_secs_f64(),
+        );
+    }
 }
 
 /// What holds of a plan whatever its status.
@@ -297,8 +321,11 @@ fn a_few_random_tasks_are_planned() {
 #[test]
 #[ignore = "many minutes"]
 fn many_random_tasks_are_planned() {
-    let count = std::env::var("FFSM_RANDOM_PLANS").map_or(200, |text| text.parse().unwrap());
-    let tally = planned(1000, count);
+    let number = |name: &str, default: usize| {
+        std::env::var(name).map_or(default, |text| text.parse().unwrap())
+    };
+    let count = number("FFSM_RANDOM_PLANS", 200);
+    let tally = planned(number("FFSM_RANDOM_FROM", 1000) as u64, count);
     println!("{tally:?}");
     let answered = tally.solved + tally.infeasible;
     assert!(answered as f64 >= 0.99 * count as f64, "{tally:?}");
