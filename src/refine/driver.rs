@@ -260,12 +260,15 @@ impl<O: Ocp> Refinement<'_, O> {
         {
             return false;
         }
-        if first.max_error > WILD && later.len() >= GROWING_WILDLY {
-            let mut pairs = records.windows(2);
-            let rises = pairs.all(|pair| pair[1].max_error > pair[0].max_error);
-            return rises && grows(first, &later[later.len() - 1], WILD_GROWTH);
-        }
-        later.len() >= GROWING && grows(first, &later[later.len() - 1], GROWTH)
+        let Some(last) = later.last() else {
+            return false;
+        };
+        let mut pairs = records.windows(2);
+        let is_wild = first.max_error > WILD
+            && later.len() >= GROWING_WILDLY
+            && pairs.all(|pair| pair[1].max_error > pair[0].max_error);
+        let is_long = later.len() >= GROWING;
+        is_wild && grows(first, last, WILD_GROWTH) || is_long && grows(first, last, GROWTH)
     }
 
     fn record(&self, solved: &Solved, assessed: &Assessed, began: Instant) -> Record {

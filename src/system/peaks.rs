@@ -3,7 +3,7 @@
 use super::dispatch::{System, with_system};
 use super::free_floating::FreeFloating;
 use super::instant::{Instant, Pose};
-use super::rows::{LEAST_PEAK, PathBlock, PeakRow};
+use super::rows::{PathBlock, PeakRow};
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
@@ -23,7 +23,7 @@ impl<Sp: Space> FreeFloating<Sp> {
     /// the order of the static parameters.
     pub(crate) fn peaks(&self, trajectory: &Discretization) -> Vec<f64> {
         let rows: Vec<&PeakRow> = self.peak_rows().collect();
-        let mut peaks = vec![LEAST_PEAK; rows.len()];
+        let mut peaks: Vec<f64> = rows.iter().map(|row| row.least()).collect();
         if rows.is_empty() {
             return peaks;
         }

@@ -1,7 +1,7 @@
 //! The planner: a first trajectory, refinement, and a diagnosis where there is none.
 
 use super::sparsity_cache::SparsityCache;
-use super::warnings::warnings;
+use super::warnings::{unbounded, warnings};
 use super::{bound_warnings, diagnosis, retarget};
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
@@ -198,7 +198,7 @@ impl<Sp: Space> Search<'_, Sp> {
             outcome.objective = system.cost_terms(&outcome.trajectory).total();
             return Ok(ended(Status::Infeasible, outcome, Some(diagnosis)));
         }
-        if !diagnosed.feasible {
+        if !diagnosed.feasible || self.deadline.has_passed() {
             return Ok(ended(Status::NotConverged, outcome, None));
         }
         // On the first mesh again: that of the diagnosis was refined for another cost.
@@ -264,6 +264,9 @@ fn assemble<Sp: Space>(
     } = found;
     let trajectory = trajectory(system, &outcome.trajectory);
     let mut warnings = warnings(&trajectory, &outcome, solver);
+    if status == Status::NotConverged {
+        warnings.extend(unbounded(problem));
+    }
     let max_error = if status == Status::Infeasible {
         midpoint_errors(system, &outcome.trajectory).max()
     } else {

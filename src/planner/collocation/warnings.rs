@@ -3,6 +3,8 @@
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::largest::largest;
 use crate::nlp::{self, ipopt};
+use crate::ocp::Interval;
+use crate::problem::Problem;
 use crate::refine::{CutShort, Outcome};
 use crate::system::Trajectory;
 
@@ -19,6 +21,27 @@ pub(super) fn warnings(
         discarded(outcome),
     ];
     found.into_iter().flatten().collect()
+}
+
+/// A word about joints whose control nothing bounds: the best may be a jump of their rates, which no
+/// mesh resolves.
+pub(super) fn unbounded(problem: &Problem) -> Option<String> {
+    let (limits, cost) = (&problem.limits, &problem.cost);
+    let joints = problem.robot.joints().iter().enumerate();
+    let free = joints.filter(|(j, _)| {
+        let ranges = [limits.control[*j], limits.torque[*j]];
+        let is_bounded = |range: &Interval| range.lower.is_finite() && range.upper.is_finite();
+        let weights = [cost.control[*j], cost.torque[*j]];
+        !ranges.iter().any(is_bounded) && weights.iter().all(|weight| *weight == 0.0)
+    });
+    let names: Vec<&str> = free.map(|(_, joint)| joint.name.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "nothing bounds the control of {}: the best motion may have rates that jump, and no mesh \
+             resolves that; give cost.control a weight, or limits.control or limits.torque bounds",
+            names.join(", ")
+        )
+    })
 }
 
 /// A word about meshes that were tried for nothing.

@@ -69,6 +69,9 @@ const PATIENT: usize = 6;
 const RECENT: usize = 3;
 /// Part of the best error before to which a later one has to fall for there to be progress.
 const PROGRESS: f64 = 0.7;
+/// Relative change of the cost over the last meshes above which the solution itself still moves: the error
+/// is then that of another motion each time.
+const MOVES: f64 = 3e-5;
 /// Part to which a raised degree has to bring the error of a segment down; otherwise the solution
 /// is not smooth there, and the segment is divided.
 const SMOOTH: f64 = 0.3;
@@ -87,7 +90,9 @@ fn has_stalled(records: &[Record], tolerance: f64) -> bool {
     };
     let best = |records: &[Record]| records.iter().map(size).fold(f64::INFINITY, f64::min);
     let (before, recent) = records.split_at(records.len() - RECENT);
-    best(recent) > PROGRESS * best(before)
+    let (from, to) = (recent[0].objective, recent[RECENT - 1].objective);
+    let moves = !by_bounds && (to - from).abs() > MOVES * to.abs();
+    best(recent) > PROGRESS * best(before) && !moves
 }
 
 #[derive(Debug)]

@@ -22,7 +22,7 @@ pub(crate) use row::of_joint;
 
 pub(crate) use block::{EndRows, PathRows};
 pub(crate) use end_effector::EndEffectorRows;
-pub(crate) use peak::{LEAST as LEAST_PEAK, PeakRow};
+pub(crate) use peak::PeakRow;
 pub(crate) use rotation_angle::{NAME as ROTATION_ANGLE, held};
 pub(crate) use way_point::{WayPointRows, way_point};
 

@@ -15,9 +15,6 @@ use crate::system::plant::Plant;
 use crate::system::pose_function::{PoseVariables, Variable, add_curvature, each_slope};
 use std::slice;
 
-/// Least peak, rad, m or rad/s: what is at rest throughout is within it.
-pub(crate) const LEAST: f64 = 1e-6;
-
 /// What is largest somewhere along the path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PeakOf {
@@ -54,6 +51,15 @@ impl PeakOf {
             Self::Attitude => "base angle",
             Self::Position => "base displacement",
             Self::Rate => "base rate",
+        }
+    }
+
+    /// The least peak that is told from none, rad, m or rad/s: below it the row's derivatives, which are as
+    /// large as its inverse, are out of all proportion.
+    fn least(self) -> f64 {
+        match self {
+            Self::Attitude | Self::Position => 1e-4,
+            Self::Rate => 1e-5,
         }
     }
 
@@ -115,8 +121,13 @@ impl PeakRow {
         let name = format!("largest {}", self.of.name());
         Quantity {
             scale: self.row.quantity.scale,
-            ..Quantity::new(name, Interval::new(LEAST, f64::INFINITY))
+            ..Quantity::new(name, Interval::new(self.least(), f64::INFINITY))
         }
+    }
+
+    /// The least that the static parameter can be.
+    pub fn least(&self) -> f64 {
+        self.of.least()
     }
 
     /// Whether it holds at t_f by a row of the end; the arm rests there, and so does the base but
