@@ -146,6 +146,7 @@ impl Progress {
                 let start = self.start.take().unwrap_or_default();
                 self.mesh = format!("{start}mesh {iteration}, {segments} {noun}, {points} points");
             }
+            Event::LeadingWithin => self.start = Some("limits on the base elastic: ".into()),
             Event::Diagnosing { start, of } => {
                 self.start = Some(format!("diagnosis, start {start} of {of} at most: "));
                 self.mesh =

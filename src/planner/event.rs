@@ -8,6 +8,8 @@ use crate::refine;
 pub enum Event<'a> {
     /// A step of the refinement loop.
     Refinement(refine::Event<'a>),
+    /// The start is far outside limits on the base: the next mesh is solved with these elastic.
+    LeadingWithin,
     /// The diagnosis of an infeasible problem tries one more start.
     Diagnosing {
         /// Counted from 1.

@@ -14,6 +14,7 @@ mod verification;
 mod words;
 
 pub use crate::refine::Start;
+pub(crate) use collocation::led_within;
 pub use collocation::{BASE_RATE_REGULARIZATION, Planner, plan};
 pub use conditioning::Conditioning;
 pub use doubt::Doubt;

@@ -3,6 +3,8 @@
 mod base_rate;
 mod bound_warnings;
 pub(super) mod diagnosis;
+mod elastic_start;
+mod elastic_trajectory;
 mod planner;
 mod retarget;
 mod sparsity_cache;
@@ -12,3 +14,4 @@ pub use base_rate::REGULARIZATION as BASE_RATE_REGULARIZATION;
 pub use planner::{Planner, plan};
 
 pub(super) use base_rate::plan as plan_base_rate;
+pub(crate) use elastic_start::led_within;

@@ -1,5 +1,6 @@
 //! The planner: a first trajectory, refinement, and a diagnosis where there is none.
 
+use super::elastic_start::led_within;
 use super::sparsity_cache::SparsityCache;
 use super::warnings::{unbounded, warnings};
 use super::{bound_warnings, diagnosis, retarget};
@@ -100,8 +101,8 @@ impl Planner {
             deadline: Deadline::after(solver.time_limit),
         };
         let found = match (given, self.leaves_why) {
-            (Some(given), true) => search.refine(&given, monitor)?,
-            (None, true) => search.refine(&straight(problem, system)?, monitor)?,
+            (Some(given), true) => search.refine_within(&given, monitor)?,
+            (None, true) => search.refine_within(&straight(problem, system)?, monitor)?,
             (given, false) => search.run(given.as_ref(), monitor)?,
         };
         Ok(assemble(problem, system, found, &solver, began))
@@ -142,9 +143,10 @@ struct Found {
 
 impl Found {
     /// The same with what `earlier` took in its records and statistics.
-    fn after(mut self, earlier: Outcome) -> Self {
+    fn after(mut self, mut earlier: Outcome) -> Self {
         self.outcome.records.splice(0..0, earlier.records);
-        self.outcome.statistics.add(&earlier.statistics);
+        earlier.statistics.add(&self.outcome.statistics);
+        self.outcome.statistics = earlier.statistics;
         self
     }
 }
@@ -168,10 +170,10 @@ impl<Sp: Space> Search<'_, Sp> {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Found, PlanError> {
         let start = straight(self.problem, self.system)?;
-        let mut first = self.refine(given.unwrap_or(&start), monitor)?;
+        let mut first = self.refine_within(given.unwrap_or(&start), monitor)?;
         let misled = first.status == Status::NotConverged && asks_why(&first.outcome, self.solver);
         if given.is_some() && misled {
-            let second = self.refine(&start, monitor)?;
+            let second = self.refine_within(&start, monitor)?;
             first = second.after(first.outcome);
         }
         if first.status != Status::NotConverged || !asks_why(&first.outcome, self.solver) {
@@ -209,16 +211,40 @@ impl<Sp: Space> Search<'_, Sp> {
         Ok(self.refine(&again, monitor)?.after(outcome))
     }
 
+    /// Refines from `start`, led within the limits on the base first where it has no multipliers.
+    fn refine_within(
+        &self,
+        start: &Start,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+    ) -> Result<Found, PlanError> {
+        let led = led_within(
+            self.problem,
+            self.system,
+            start.clone(),
+            &self.settings(),
+            monitor,
+        )?;
+        let mut found = self.refine(&led.start, monitor)?;
+        let own = std::mem::replace(&mut found.outcome.statistics, led.statistics);
+        found.outcome.statistics.add(&own);
+        Ok(found)
+    }
+
+    /// The solver's settings with the time that is left.
+    fn settings(&self) -> nlp::Settings {
+        nlp::Settings {
+            time_limit: self.deadline.remaining(),
+            ..self.solver.clone()
+        }
+    }
+
     fn refine(
         &self,
         start: &Start,
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Found, PlanError> {
         let mut stopped = false;
-        let solver = nlp::Settings {
-            time_limit: self.deadline.remaining(),
-            ..self.solver.clone()
-        };
+        let solver = self.settings();
         let refinement = Refinement {
             ocp: self.system,
             patterns: self.patterns,

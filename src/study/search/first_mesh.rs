@@ -5,7 +5,7 @@ use crate::collocation::Mesh;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline};
 use crate::ocp::Ocp;
-use crate::planner::{Method, Plan, PlanError, Planner, Start};
+use crate::planner::{Method, Plan, PlanError, Planner, Start, led_within};
 use crate::problem::Problem;
 use crate::refine::{self, Refinement};
 use crate::system::{FreeFloating, StartKind, Starts, along, metrics, trajectory};
@@ -74,6 +74,19 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
             None => self.start(index),
         };
         let own = &self.problem.solver;
+        let solver = || nlp::Settings {
+            max_iterations: own.max_iterations.min(ITERATIONS),
+            warm_start: None,
+            time_limit: deadline.remaining(),
+            ..own.clone()
+        };
+        let start = Start {
+            trajectory: self.system.with_peaks(from),
+            iterate: None,
+        };
+        let led = led_within(self.problem, self.system, start, &solver(), &mut |_| {
+            monitor()
+        })?;
         let refinement = Refinement {
             ocp: self.system,
             patterns: &self.patterns,
@@ -81,18 +94,9 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
                 max_iterations: Some(1),
                 ..self.problem.mesh.clone()
             },
-            solver: &nlp::Settings {
-                max_iterations: own.max_iterations.min(ITERATIONS),
-                warm_start: None,
-                time_limit: deadline.remaining(),
-                ..own.clone()
-            },
+            solver: &solver(),
         };
-        let start = Start {
-            trajectory: self.system.with_peaks(from),
-            iterate: None,
-        };
-        let outcome = refinement.run(&start, &mut |_| monitor())?;
+        let outcome = refinement.run(&led.start, &mut |_| monitor())?;
         if !outcome.status.is_solved() || !outcome.objective.is_finite() {
             return Ok(None);
         }

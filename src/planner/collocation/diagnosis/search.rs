@@ -9,6 +9,7 @@ use crate::collocation::Mesh;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, Statistics};
 use crate::ocp::{Elastic, LimitGroup, Ocp};
+use crate::planner::collocation::elastic_trajectory::{extend, strip};
 use crate::planner::{Event, LimitFinding, PlanError, Starts};
 use crate::problem::Problem;
 use crate::refine::{self, CutShort, Method, Outcome, Refinement, Start};
@@ -374,20 +375,4 @@ impl<Sp: Space> Search<'_, '_, Sp> {
 /// The sum of the amounts by which limits are exceeded, each in units of its own size.
 fn excess<O: Ocp>(trajectory: &Discretization, elastic: &Elastic<'_, O>) -> f64 {
     trajectory.parameters[elastic.amounts()].iter().sum()
-}
-
-/// The trajectory with the first amounts of `elastic`.
-fn extend<O: Ocp>(trajectory: Discretization, elastic: &Elastic<'_, O>) -> Discretization {
-    let guess = elastic.formulation().parameter_guess;
-    let mut parameters = trajectory.parameters.clone();
-    parameters.extend(&guess[elastic.amounts()]);
-    let from = trajectory.initial_time;
-    trajectory.with(from, parameters)
-}
-
-/// The trajectory without the amounts of `elastic`.
-fn strip<O: Ocp>(trajectory: &Discretization, elastic: &Elastic<'_, O>) -> Discretization {
-    let mut parameters = trajectory.parameters.clone();
-    parameters.truncate(elastic.amounts().start);
-    trajectory.clone().with(trajectory.initial_time, parameters)
 }
