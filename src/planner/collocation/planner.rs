@@ -8,6 +8,7 @@ use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, ipopt};
 use crate::ocp::Ocp;
+use crate::planner::possible::possible;
 use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
 use crate::problem::Problem;
 use crate::refine::{CutShort, Outcome, Refinement, Start, Verdict, midpoint_errors};
@@ -67,7 +68,8 @@ impl Planner {
     /// a warm one; they may be those of a problem with other rows on the same robot.
     ///
     /// # Errors
-    /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
+    /// [`PlanError`], a task that no motion can carry out included, as far as that is seen before any
+    /// solve; an infeasible or unconverged problem is no error but a [`Status`].
     pub fn plan_with(
         &mut self,
         problem: &Problem,
@@ -75,6 +77,7 @@ impl Planner {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Plan, PlanError> {
         let began = Instant::now();
+        possible(problem)?;
         with_system!(&System::new(problem), system => {
             self.run(problem, system, start, monitor, began)
         })
