@@ -20,7 +20,7 @@ use crate::transcription::{Discretization, Patterns};
 const STARTS: usize = 8;
 /// What their random numbers begin with.
 const SEED: u64 = 1;
-/// Starts in a row without a better result after which the search ends.
+/// Starts in a row without a better result, or from the first without any, after which the search ends.
 const PATIENCE: usize = 5;
 /// How many of the best starts are refined, and how many are tried where others do not converge.
 const REFINED: usize = 2;
@@ -122,7 +122,7 @@ impl Candidates {
     fn add<O: Ocp>(&mut self, part: f64, outcome: &Outcome, elastic: &Elastic<'_, O>) -> bool {
         self.starts.tried += 1;
         if !outcome.status.is_solved() {
-            return false;
+            return self.found.is_empty() && self.starts.tried == PATIENCE;
         }
         self.starts.feasible += 1;
         let excess = excess(&outcome.trajectory, elastic);
