@@ -4,14 +4,12 @@ mod problems;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::{Model, Placement};
-use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
-use ffsm_ipopt::planner::{PlanError, Status, plan};
+use ffsm_ipopt::planner::{Status, plan};
 use ffsm_ipopt::problem::{
     EndEffectorGoal, GoalFrame, Impossible, KeepOut, LimitId, Moment, Place, Problem,
     ProblemBuilder, Solid, WayPoint,
 };
-use ffsm_ipopt::study::search::Search;
 use ffsm_ipopt::system::impossible;
 use std::f64::consts::PI;
 
@@ -331,16 +329,4 @@ fn all_of_start_and_goal_outside_of_limits_is_listed() {
             "task.final.joints[1]"
         ]
     );
-}
-
-#[test]
-fn the_library_refuses_it_before_any_solve_as_well() {
-    let problem = problems::relaxed()
-        .edited(|problem| problem.task.duration = Interval::fixed(1.0))
-        .unwrap();
-    let expected = PlanError::Impossible(impossible(&problem));
-    assert_eq!(plan(&problem).unwrap_err(), expected);
-    let search = Search::default();
-    let error = search.run(&problem, None, &mut |_| Control::Stop);
-    assert_eq!(error.unwrap_err(), expected);
 }

@@ -87,19 +87,17 @@ fn the_bound_that_was_found_does_work() {
 
 #[test]
 fn a_limit_on_the_joints_is_named_too() {
-    // Two seconds take 0.118 and 0.137 N·m: no base limit has a part in it, and the bound on the least
-    // time by torque alone does not see it.
+    // A radian in half a second at 0.9 rad/s: no base limit has a part in it.
     let problem = problems::relaxed()
-        .edited(|problem| {
-            problem.task.duration = Interval::fixed(2.0);
-            problem.limits.torque = vec![Interval::symmetric(0.08)];
-        })
+        .edited(|problem| problem.task.duration = Interval::fixed(0.5))
         .unwrap();
     let plan = plan(&problem).unwrap();
     assert_eq!(plan.status, Status::Infeasible);
     let limits = plan.diagnosis.expect("a diagnosis").limits;
     assert!(
-        limits.iter().any(|l| l.limit.key() == "limits.torque"),
+        limits
+            .iter()
+            .any(|l| l.limit.key() == "limits.joint_velocity"),
         "{limits:?}"
     );
     assert!(

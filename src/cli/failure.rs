@@ -76,7 +76,6 @@ impl Failure {
         };
         match (error, warm_start) {
             (PlanError::Problem(error), _) => Self::Config(file.blame(error)),
-            (PlanError::Impossible(reasons), _) => Self::Config(file.blame_each(reasons)),
             (PlanError::Ipopt(IpoptError::OptionRefused { name, value: given }), _) => {
                 let key = match name.as_str() {
                     "linear_solver" => "solver.linear_solver".into(),

@@ -8,7 +8,7 @@ use super::robot::{self, Robot, RobotFile};
 use super::trust::Origin;
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, long_way, tables};
-use crate::problem::{EXPECTED_NAME, Impossible, Problem, ProblemBuilder, ProblemError, is_name};
+use crate::problem::{EXPECTED_NAME, Problem, ProblemBuilder, ProblemError, is_name};
 use crate::system::impossible;
 use std::path::Path;
 
@@ -44,22 +44,16 @@ impl ProblemFile {
     /// [`ConfigError`] for what is found wrong in it, in the robot's file or in `overrides`.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, ConfigError> {
         let file = Self::read(path, Files::Disk, overrides)?;
-        let reasons = impossible(&file.problem);
-        match reasons.is_empty() {
-            true => Ok(file),
-            false => Err(file.blame_each(reasons)),
-        }
-    }
-
-    /// `reasons` why its task cannot be carried out, each with its place in the file.
-    pub fn blame_each(&self, reasons: Vec<Impossible>) -> ConfigError {
         let mut faults = Faults::default();
-        for cause in reasons {
-            let place = self.place(&cause.key());
+        for cause in impossible(&file.problem) {
+            let place = file.place(&cause.key());
             let cause = Box::new(cause);
             faults.push(ConfigError::Impossible { place, cause });
         }
-        faults.into_error(whole(&self.path))
+        match faults.is_empty() {
+            true => Ok(file),
+            false => Err(faults.into_error(whole(&file.path))),
+        }
     }
 
     /// One of the problems shipped in `config/`, by name ("table1-relaxed").

@@ -2,7 +2,7 @@
 
 use crate::collocation::MeshError;
 use crate::nlp::ipopt;
-use crate::problem::{Impossible, ProblemError};
+use crate::problem::ProblemError;
 use crate::refine::SolveError;
 
 /// Why there is no plan at all.
@@ -12,9 +12,6 @@ pub enum PlanError {
     /// The problem cannot be.
     #[error(transparent)]
     Problem(#[from] ProblemError),
-    /// No motion can carry out the task, for each of these reasons.
-    #[error("{}", reasons(.0))]
-    Impossible(Vec<Impossible>),
     /// The mesh cannot be.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -38,11 +35,6 @@ pub enum PlanError {
         /// Joints of the problem.
         joints: usize,
     },
-}
-
-fn reasons(reasons: &[Impossible]) -> String {
-    let reasons: Vec<String> = reasons.iter().map(ToString::to_string).collect();
-    reasons.join("; ")
 }
 
 impl From<SolveError> for PlanError {

@@ -10,7 +10,6 @@ pub mod floor;
 mod joint_space;
 mod method;
 mod plan;
-mod possible;
 mod verification;
 mod words;
 
@@ -24,5 +23,4 @@ pub use event::Event;
 pub use joint_space::matpm_attitudes;
 pub use method::Method;
 pub use plan::{Diagnosis, LimitFinding, Plan, Starts, Status, Timing};
-pub(crate) use possible::possible;
 pub use verification::{Judgement, judge, judge_solved};

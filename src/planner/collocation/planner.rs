@@ -8,7 +8,6 @@ use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, ipopt};
 use crate::ocp::Ocp;
-use crate::planner::possible::possible;
 use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
 use crate::problem::Problem;
 use crate::refine::{CutShort, Outcome, Refinement, Start, Verdict, midpoint_errors};
@@ -22,6 +21,9 @@ use std::time::{Duration, Instant};
 const WARM_BARRIER: f64 = 1e-8;
 
 /// Plans `problem` with a fresh [`Planner`].
+///
+/// [`impossible`](crate::system::impossible) says in less than a millisecond what no motion can do:
+/// asked first, it spares the diagnosis.
 ///
 /// # Errors
 /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
@@ -56,6 +58,9 @@ impl Planner {
 
     /// Plans `problem` from a straight joint path.
     ///
+    /// [`impossible`](crate::system::impossible) says in less than a millisecond what no motion can do:
+    /// asked first, it spares the diagnosis.
+    ///
     /// # Errors
     /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
     pub fn plan(&mut self, problem: &Problem) -> Result<Plan, PlanError> {
@@ -68,8 +73,7 @@ impl Planner {
     /// a warm one; they may be those of a problem with other rows on the same robot.
     ///
     /// # Errors
-    /// [`PlanError`], a task that no motion can carry out included, as far as that is seen before any
-    /// solve; an infeasible or unconverged problem is no error but a [`Status`].
+    /// [`PlanError`]; an infeasible or unconverged problem is no error but a [`Status`].
     pub fn plan_with(
         &mut self,
         problem: &Problem,
@@ -77,7 +81,6 @@ impl Planner {
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Plan, PlanError> {
         let began = Instant::now();
-        possible(problem)?;
         with_system!(&System::new(problem), system => {
             self.run(problem, system, start, monitor, began)
         })

@@ -26,7 +26,7 @@ pub use optimum::Optimum;
 
 use crate::nlp::{Control, Deadline};
 use crate::parallel;
-use crate::planner::{Event, Plan, PlanError, Planner, Start, Status, possible};
+use crate::planner::{Event, Plan, PlanError, Planner, Start, Status};
 use crate::problem::Problem;
 use crate::system::{StartKind, System, with_system};
 use first_mesh::FirstMesh;
@@ -112,7 +112,6 @@ impl Search {
         given: Option<&Start>,
         monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
     ) -> Result<Searched, PlanError> {
-        possible(problem)?;
         let began = Instant::now();
         let deadline = Deadline::after(problem.solver.time_limit);
         let teller = Teller::new(monitor);
