@@ -2,7 +2,7 @@
 //! and in space, every kind of goal, limit and cost.
 //!
 //! `make random-plans` plans many: as many as `FFSM_RANDOM_PLANS` says, from the seed
-//! `FFSM_RANDOM_FROM` on.
+//! `FFSM_RANDOM_FROM` on, by the law that `FFSM_RANDOM_LAW` names.
 
 mod trees;
 
@@ -15,6 +15,7 @@ use ffsm_ipopt::planner::{Plan, Status, plan};
 use ffsm_ipopt::problem::{
     EndEffectorGoal, GoalFrame, KeepOut, Moment, Problem, ProblemBuilder, Solid, WayPoint,
 };
+use ffsm_ipopt::refine::Law;
 use ffsm_ipopt::system::impossible;
 use std::time::{Duration, Instant};
 use trees::{PRISMATIC, REVOLUTE, uniform, values};
@@ -256,7 +257,12 @@ struct Tally {
 fn planned(seed: u64, count: usize) -> Tally {
     let mut tally = Tally::default();
     let tasks = (seed..).filter_map(|seed| Some((seed, task(seed)?)));
+    let law = std::env::var("FFSM_RANDOM_LAW").ok();
+    let law = law.and_then(|name| Law::ALL.into_iter().find(|law| law.name() == name));
     for (seed, problem) in tasks.take(count) {
+        let problem = problem
+            .edited(|problem| problem.mesh.law = law.unwrap_or_default())
+            .unwrap();
         let began = Instant::now();
         let plan = plan(&problem).unwrap_or_else(|error| panic!("{seed}: {error}"));
         let seconds = began.elapsed().as_secs_f64();
@@ -270,9 +276,10 @@ fn planned(seed: u64, count: usize) -> Tally {
             }
         }
         println!(
-            "{seed}: {} joints, {:?}, {} points, error {:.1e}, J {:.6}, {seconds:.1} s; {}",
+            "{seed}: {} joints, {:?}, {} meshes, {} points, error {:.1e}, J {:.6}, {seconds:.1} s; {}",
             problem.robot.joint_count(),
             plan.status,
+            plan.iterations.len(),
             plan.discretization.mesh.points(),
             plan.max_error,
             plan.objective,

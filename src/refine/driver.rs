@@ -126,6 +126,8 @@ impl<O: Ocp> Refinement<'_, O> {
         let facts = Facts::of(self.ocp, &formulation, self.patterns);
         let mut structure = Structure::default();
         let mut structure_failed = false;
+        // Records without those of structures that did not hold.
+        let mut counted: Vec<Record> = Vec::new();
         let mut previous: Option<Previous> = None;
         let mut best: Option<Outcome> = None;
         loop {
@@ -159,12 +161,17 @@ impl<O: Ocp> Refinement<'_, O> {
                 && self.gains(&assessed, previous.as_ref());
             let fell = !(structure.is_empty() || stopped || holds);
             structure_failed |= fell;
-            if !fell && self.diverges(&records) {
-                records[iteration - 1].verdict = Verdict::Diverging;
+            if !fell {
+                counted.push(records[iteration - 1].clone());
+                if self.diverges(&counted) {
+                    records[iteration - 1].verdict = Verdict::Diverging;
+                }
             }
+            let most = (self.settings.max_iterations).filter(|_| structure_failed);
             let ended = !(solved.status.is_solved() || fell)
                 || records[iteration - 1].verdict == Verdict::Diverging
-                || law.is_last(&records);
+                || most.is_some_and(|most| records.len() >= most)
+                || law.is_last(&counted);
             let next = (!ended)
                 .then(|| {
                     let (solved, assessed, before) = match previous.as_ref().filter(|_| fell) {

@@ -12,7 +12,7 @@ use crate::ocp::{Elastic, LimitGroup, Ocp};
 use crate::planner::collocation::elastic_trajectory::{extend, strip};
 use crate::planner::{Event, LimitFinding, PlanError, Starts};
 use crate::problem::Problem;
-use crate::refine::{self, CutShort, Method, Outcome, Refinement, Start};
+use crate::refine::{self, CutShort, Law, Method, Outcome, Refinement, Start};
 use crate::system::{self, ElasticLimit, FreeFloating, JointPath, along};
 use crate::transcription::{Discretization, Patterns};
 
@@ -294,10 +294,12 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         Ok(candidates.found)
     }
 
-    /// The problem's mesh, with so many iterations at most.
+    /// The problem's mesh, with so many iterations at most. Which limit gives way where changes from mesh
+    /// to mesh, so that there is no structure to hold on to.
     fn settings(&self, meshes: usize) -> refine::Settings {
         refine::Settings {
             method: Method::Adaptive,
+            law: Law::Paper,
             max_iterations: Some(meshes),
             ..self.problem.mesh.clone()
         }
