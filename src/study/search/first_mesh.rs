@@ -5,7 +5,7 @@ use crate::collocation::Mesh;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline};
 use crate::ocp::Ocp;
-use crate::planner::{Method, Plan, PlanError, Planner, Start, led_within};
+use crate::planner::{Event, Method, Plan, PlanError, Planner, Start, led_within};
 use crate::problem::Problem;
 use crate::refine::{self, Refinement};
 use crate::system::{FreeFloating, StartKind, Starts, along, metrics, trajectory};
@@ -84,9 +84,14 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
             trajectory: self.system.with_peaks(from),
             iterate: None,
         };
-        let led = led_within(self.problem, self.system, start, &solver(), &mut |_| {
-            monitor()
-        })?;
+        // The others are far outside limits on purpose, and would be led to one and the same optimum.
+        let start = match kind {
+            StartKind::Straight => {
+                let monitor = &mut |_: &Event<'_>| monitor();
+                led_within(self.problem, self.system, start, &solver(), monitor)?.start
+            }
+            _ => start,
+        };
         let refinement = Refinement {
             ocp: self.system,
             patterns: &self.patterns,
@@ -96,7 +101,7 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
             },
             solver: &solver(),
         };
-        let outcome = refinement.run(&led.start, &mut |_| monitor())?;
+        let outcome = refinement.run(&start, &mut |_| monitor())?;
         if !outcome.status.is_solved() || !outcome.objective.is_finite() {
             return Ok(None);
         }
