@@ -18,6 +18,7 @@ mod goal;
 mod inertia;
 mod item;
 mod keep_out;
+mod key_path;
 mod long_way;
 mod overrides;
 mod platform;

@@ -8,6 +8,7 @@ use super::robot::{self, Robot, RobotFile};
 use super::trust::Origin;
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, long_way, tables};
+use crate::dynamics::Inertia;
 use crate::problem::{EXPECTED_NAME, Problem, ProblemBuilder, ProblemError, is_name};
 use crate::system::impossible;
 use std::path::Path;
@@ -28,6 +29,9 @@ pub struct ProblemFile {
     pub robot: RobotFile,
     /// The body at whose frame the end effector is; `None` where the robot has none.
     pub end_effector: Option<String>,
+    /// Mass properties of the bodies that `robot.bodies` changes, each in its own frame, as they went
+    /// into the model.
+    pub bodies: Vec<(String, Inertia)>,
     /// What a user should know of how the files were read, though nothing is wrong; a line each.
     pub notes: Vec<String>,
     /// What was changed of the robot, as `robot.repair` or `robot.minimum_mass` asks or because
@@ -105,6 +109,7 @@ impl ProblemFile {
         Ok(Self {
             notes: notes.chain(long_way).collect(),
             end_effector: robot.end_effector(),
+            bodies: robot.changed().to_vec(),
             repairs: robot.changes,
             problem,
             path: source.path,
