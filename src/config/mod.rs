@@ -8,6 +8,7 @@
 //! formats.
 
 mod base;
+mod batch;
 mod document;
 mod error;
 mod faults;
@@ -23,6 +24,7 @@ mod long_way;
 mod overrides;
 mod platform;
 mod problem;
+mod read_back;
 pub(crate) mod regular;
 mod robot;
 mod starter;
@@ -32,6 +34,7 @@ mod values;
 mod way_point;
 mod xml_text;
 
+pub use batch::{BatchFile, BatchRow, Cell, CellKind};
 pub use error::{ConfigError, Place, Remedy};
 pub use fit::{Experiment, FitFile, Hypothesis, PlanSource};
 pub use overrides::Overrides;

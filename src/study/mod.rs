@@ -2,6 +2,7 @@
 //! beside the motion without planning.
 
 mod baselines;
+pub mod batch;
 mod comparison;
 pub mod pareto;
 pub mod search;

@@ -143,7 +143,7 @@ fn locked_joints_end_effectors_and_bodies_that_are_not_there() {
         ),
         (
             "{ file = \"robot.toml\", bodies = { forearm = { com = [0, 0, 1e12] } } }",
-            "robot.bodies.forearm.com: mass centre is 1.000000e12 m, expected at most 1e9 m",
+            "robot.bodies.forearm.com: a mass centre with a coordinate of 1e12 m, expected at most 1e9 m",
         ),
         (
             "{ file = \"robot.toml\", bodies = { forearm = { inertia = [1.0, 1.0, 3.0] } } }",

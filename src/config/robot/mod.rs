@@ -38,8 +38,8 @@ pub(super) struct Robot {
     description: Description,
     /// What of it may be changed.
     repair: Repair,
-    /// Whether a spacecraft is attached.
-    loaded: bool,
+    /// The spacecraft that is attached.
+    spacecraft: Option<Inertia>,
     /// What was changed, a line each; known once it is a model.
     pub changes: Vec<String>,
     /// Its file.
@@ -50,7 +50,7 @@ impl Robot {
     /// Attaches a spacecraft rigidly to the base, given in the frame of the root link.
     pub(super) fn attach(&mut self, spacecraft: &Inertia) {
         self.description.add(spacecraft, None);
-        self.loaded = true;
+        self.spacecraft = Some(spacecraft.clone());
     }
 
     /// The joint whose body is or carries the body `name` (`None` for the base), and the pose of
@@ -85,6 +85,11 @@ impl Robot {
         &self.description.changed
     }
 
+    /// Mass properties of the spacecraft that is attached, in the frame of the root link.
+    pub(super) fn spacecraft(&self) -> Option<&Inertia> {
+        self.spacecraft.as_ref()
+    }
+
     /// Name of the body at whose frame the end effector is, with an offset where there is one.
     pub(super) fn end_effector(&self) -> Option<String> {
         self.description.end_effector_name()
@@ -111,7 +116,7 @@ pub(super) fn read(
             key: item.key.clone(),
             description,
             repair,
-            loaded: false,
+            spacecraft: None,
             changes: Vec::new(),
             file,
         }
