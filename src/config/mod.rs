@@ -42,7 +42,7 @@ pub use platform::PlatformFile;
 pub use problem::ProblemFile;
 pub use robot::RobotFile;
 pub use starter::{Starter, StarterJoint};
-pub use trust::trust_options;
+pub use trust::{trust_options, trusts_options};
 
 use document::Value;
 use item::Section;

@@ -192,7 +192,8 @@ impl Writer {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let number = |rest: &str| rest.trim_end_matches(ENDING).parse::<u64>().ok();
             if let Some(rest) = name.strip_prefix(&half) {
-                if number(rest).is_some() {
+                // Nobody else is at work beside a run of all rows.
+                if self.shard == Shard::WHOLE || number(rest).is_some() {
                     std::fs::remove_file(&path).map_err(error::write(&path))?;
                 }
             } else if let Some(number) = name.strip_prefix(&own).and_then(number) {

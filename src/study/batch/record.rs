@@ -191,6 +191,24 @@ impl Figures {
 }
 
 impl Motion {
+    /// How many numbers it has.
+    pub fn numbers(&self) -> usize {
+        let rows = [
+            &self.base_attitude,
+            &self.base_position,
+            &self.base_rate,
+            &self.joint_position,
+            &self.joint_velocity,
+            &self.control,
+            &self.joint_torque,
+        ];
+        let widths = rows
+            .into_iter()
+            .filter_map(|rows| rows.first())
+            .map(Vec::len);
+        self.t.len() * (1 + widths.sum::<usize>())
+    }
+
     /// That of a plan.
     pub(super) fn of(planned: Trajectory) -> Self {
         let Trajectory {
