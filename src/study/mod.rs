@@ -1,5 +1,5 @@
-//! Many plans for one question: one task by every planner, over its trade-off, from many starts; one plan
-//! beside the motion without planning.
+//! Many plans for one question: one task by every planner, over its trade-off, from many starts; many
+//! tasks side by side; one plan beside the motion without planning.
 
 mod baselines;
 pub mod batch;

@@ -85,6 +85,8 @@ impl Engine {
         let stop = AtomicBool::new(false);
         let (sender, records) = sync_channel(2 * self.jobs.get());
         std::thread::scope(|scope| {
+            // Its own from here on: once it is gone, no thread waits for its record to be taken.
+            let records = records;
             let mut started = Ok(());
             for job in 0..self.jobs.get() {
                 let (sender, stop, next) = (sender.clone(), &stop, &next);

@@ -10,7 +10,7 @@ use std::process::ExitStatus;
 pub enum EngineError {
     /// A thread cannot be started.
     #[error("a thread to plan on cannot be started: {0}")]
-    Thread(#[source] io::Error),
+    Thread(io::Error),
     /// A worker cannot be started or spoken to.
     #[error("{}: the process to plan in cannot be started: {cause}", program.display())]
     Start {

@@ -1,0 +1,101 @@
+//! The same rows for any number of jobs, of shards, of rows, in threads and in processes, and those
+//! of `plan`.
+
+use crate::program::edited;
+use crate::rows::*;
+use serde_json::Value;
+
+#[test]
+fn rows_do_not_depend_on_who_plans_them() {
+    let folder = folder(BATCH);
+    plan(&folder, "one", &["--jobs", "1"]);
+    let expected = rows(&folder, "one");
+    assert_eq!(expected.len(), 12);
+    assert!(expected.values().all(|row| row["status"] == "solved"));
+    plan(&folder, "three", &["--jobs", "3"]);
+    assert_eq!(rows(&folder, "three"), expected);
+    plan(&folder, "isolated", &["--isolate", "--jobs", "2"]);
+    assert_eq!(rows(&folder, "isolated"), expected);
+    for shard in ["2/3", "3/3", "1/3"] {
+        plan(&folder, "shards", &["--shard", shard]);
+    }
+    assert_eq!(rows(&folder, "shards"), expected);
+}
+
+#[test]
+fn more_rows_begin_with_the_same() {
+    let folder = folder(BATCH);
+    plan(&folder, "o", &[]);
+    let first = rows(&folder, "o");
+    folder.write("batch.toml", &edited(BATCH, "count = 12", "count = 15"));
+    plan(&folder, "o", &["--resume"]);
+    let mut more = rows(&folder, "o");
+    plan(&folder, "p", &[]);
+    assert_eq!(rows(&folder, "p"), more);
+    assert_eq!(more.len(), 15);
+    more.retain(|row, _| *row < 12);
+    assert_eq!(more, first);
+}
+
+#[test]
+fn a_row_is_the_plan_of_its_problem_alone() {
+    let folder = folder(BATCH);
+    plan(&folder, "o", &["--trajectories", "--jobs", "2"]);
+    let rows = rows(&folder, "o");
+    for position in [0, 7] {
+        let row = &rows[&position];
+        let key = |name: &str| format!("{name}={}", row[name]);
+        let run = folder.run(&[
+            "plan",
+            "case.toml",
+            "--out",
+            "alone",
+            "--quiet",
+            "--json",
+            "--set",
+            &key("task.final.joints[0]"),
+            "--set",
+            &key("robot.bodies.forearm.mass"),
+            "--set",
+            &key("limits.joint_velocity"),
+        ]);
+        assert_eq!(run.code, 0, "{run:?}");
+        let alone: Value = serde_json::from_str(&run.stdout).unwrap();
+        let number = |value: &Value| format!("{:?}", value.as_f64().unwrap());
+        for name in ["objective", "max_error"] {
+            assert_eq!(row[name], number(&alone[name]), "{name}");
+        }
+        for (name, value) in alone["metrics"].as_object().unwrap() {
+            assert_eq!(row[name], number(value), "{name}");
+        }
+        for name in ["points", "segments"] {
+            assert_eq!(row[name], alone[name].to_string(), "{name}");
+        }
+        let drift = &alone["verification"]["max_base_attitude_drift"];
+        assert_eq!(row["verification_attitude"], number(drift));
+        let t: Vec<f64> = serde_json::from_value(alone["trajectory"]["t"].clone()).unwrap();
+        assert_eq!(row["t"], format!("{:?}", Some(t)));
+        for name in [
+            "base_attitude",
+            "base_position",
+            "base_rate",
+            "joint_position",
+            "joint_velocity",
+            "control",
+            "joint_torque",
+        ] {
+            let of = alone["trajectory"][name].clone();
+            let of: Vec<Vec<f64>> = serde_json::from_value(of).unwrap();
+            assert_eq!(row[name], format!("{:?}", Some(of)), "{name}");
+        }
+    }
+}
+
+/// With the limit on the time, which no plan here needs, as without.
+#[test]
+fn a_time_limit_that_is_not_reached_changes_nothing() {
+    let folder = folder(&edited(BATCH, "count = 12", "count = 3"));
+    plan(&folder, "o", &[]);
+    plan(&folder, "limited", &["--time-limit", "60"]);
+    assert_eq!(rows(&folder, "limited"), rows(&folder, "o"));
+}
