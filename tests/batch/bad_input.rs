@@ -98,19 +98,19 @@ fn keys_that_change_nothing() {
     for (name, expected) in [
         (
             "task.final.joint[0]",
-            "batch.toml:7: row 0: task.final: a table; expected",
+            "row 0: batch.toml:7: task.final.joint: a table; expected an array",
         ),
         (
             "limits.torqe",
-            "batch.toml:7: row 0: limits.torqe: unknown key; did you mean 'torque'?",
+            "row 0: batch.toml:7: limits.torqe: unknown key; did you mean 'torque'?",
         ),
         (
             "robot.bodies.hand.mass",
-            "batch.toml:7: row 0: robot.bodies.hand: unknown key",
+            "row 0: batch.toml:7: robot.bodies.hand: unknown key",
         ),
         (
             "task.final.joints[2]",
-            "batch.toml:7: row 0: task.final.joints: an array of 2 values; expected at least 3 values, so that [2] can be set",
+            "row 0: batch.toml:7: task.final.joints: an array of 2 values; expected at least 3 values, so that [2] can be set",
         ),
         // Read, but no figure of the problem.
         ("robot.minimum_mass", "batch.toml:7: robot.minimum_mass: 0."),
@@ -118,6 +118,19 @@ fn keys_that_change_nothing() {
         let found = complaint(&folder(&key(name)), &TO);
         assert!(found.starts_with(expected), "{found}");
     }
+}
+
+/// What a file may not do, a batch file may not do either.
+#[test]
+fn libraries_are_not_loaded() {
+    let old = "key = \"limits.joint_velocity\"\nvalues = [0.9, 0.8, 0.7]";
+    let new = "key = \"solver.linear_solver\"\nvalues = [\"ma57\"]";
+    let found = complaint(&folder(&edited(BATCH, old, new)), &TO);
+    assert!(
+        found.starts_with("row 0: batch.toml:15: solver.linear_solver: "),
+        "{found}"
+    );
+    assert!(found.contains("--trust-options"), "{found}");
 }
 
 #[test]

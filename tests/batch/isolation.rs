@@ -49,7 +49,7 @@ column = "duration"
         "t.csv",
         "final,duration\n1,20\n1,21\n1,22\n1,23\n1e-4,20\n1,-1\n1,25\n1,0.1\n",
     );
-    let limit = ["--time-limit", "2", "--memory", "600"];
+    let limit = ["--time-limit", "8", "--memory", "600"];
     with_faults(&folder, "crash:1,hang:2,memory:3", &limit);
     let found = rows(&folder, "o");
     let of = |name: &str| {
@@ -81,7 +81,7 @@ column = "duration"
         reasons[3]
     );
     assert!(reasons[4].contains("final base attitude"), "{}", reasons[4]);
-    let begins = "batch.toml:8: row 5: task.duration: -1; expected a finite duration above zero";
+    let begins = "row 5: batch.toml:8: task.duration: -1; expected a finite duration above zero";
     assert!(reasons[5].starts_with(begins), "{}", reasons[5]);
     assert!(reasons[7].contains("least"), "{}", reasons[7]);
     // What a row has is said where there is a problem, and nowhere else.

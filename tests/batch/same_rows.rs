@@ -91,6 +91,53 @@ fn a_row_is_the_plan_of_its_problem_alone() {
     }
 }
 
+/// All plans from one saved solution, as `plan` starts from it.
+#[test]
+fn warm_starts_are_those_of_plan() {
+    let folder = folder(&edited(BATCH, "count = 12", "count = 6"));
+    assert_eq!(
+        folder
+            .run(&["plan", "case.toml", "--out", "w", "--quiet"])
+            .code,
+        0
+    );
+    let warm = ["--warm-start", "w/solution.json"];
+    plan(&folder, "one", &[&warm[..], &["--jobs", "1"]].concat());
+    plan(
+        &folder,
+        "two",
+        &[&warm[..], &["--jobs", "2", "--isolate"]].concat(),
+    );
+    let rows_of = |out| rows(&folder, out);
+    assert_eq!(rows_of("one"), rows_of("two"));
+    plan(&folder, "cold", &[]);
+    let sum = |out| numbers(&rows_of(out), "nlp_iterations").iter().sum::<f64>();
+    assert!(sum("one") < sum("cold"), "{} {}", sum("one"), sum("cold"));
+    let row = &rows_of("one")[&4];
+    let key = |name: &str| format!("{name}={}", row[name]);
+    let run = folder.run(&[
+        "plan",
+        "case.toml",
+        "--out",
+        "alone",
+        "--quiet",
+        "--json",
+        "--warm-start",
+        "w/solution.json",
+        "--set",
+        &key("task.final.joints[0]"),
+        "--set",
+        &key("robot.bodies.forearm.mass"),
+        "--set",
+        &key("limits.joint_velocity"),
+    ]);
+    let alone: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(
+        row["objective"],
+        format!("{:?}", alone["objective"].as_f64().unwrap())
+    );
+}
+
 /// With the limit on the time, which no plan here needs, as without.
 #[test]
 fn a_time_limit_that_is_not_reached_changes_nothing() {

@@ -10,7 +10,7 @@ const MOST: usize = 10_000;
 const MOST_NUMBERS: usize = 4 << 20;
 /// Least and most time between two parts; in between a twentieth of what was spent so far, so that a
 /// long run loses minutes at most and leaves files enough to be counted.
-const SOON: Duration = Duration::from_secs(2);
+const SOON: Duration = Duration::from_millis(500);
 const LATE: Duration = Duration::from_secs(60);
 
 /// Records on their way to the next part file.

@@ -11,7 +11,9 @@ use super::{Outcome, interrupt, terminal};
 use crate::config::{BatchFile, trusts_options};
 use crate::nlp::Control;
 use crate::nlp::ipopt::{self, interrupt as stop, serialised};
+use crate::planner::Start;
 use crate::solution::dataset::{Manifest, Shard, Writer};
+use crate::solution::read_warm_start;
 use crate::study::batch::{Engine, Event, Isolation, RowStatus, WorkerCommand};
 use buffer::Buffer;
 use clap::{Args, Subcommand};
@@ -50,6 +52,9 @@ pub(super) struct Arguments {
     /// Limit on the time of each plan
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<Duration>,
+    /// Saved solution that every plan starts from
+    #[arg(long, value_name = "solution.json")]
+    warm_start: Option<PathBuf>,
     /// Plan in processes of their own: what ends one of them is a row with its reason
     #[arg(long)]
     isolate: bool,
@@ -109,7 +114,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     }
     let batch = BatchFile::load(path, arguments.time_limit)?;
     let keys = solutions::positions(&batch, &arguments.solutions)?;
-    let manifest = Manifest::of(&batch, arguments.trajectories);
+    let warm_start = arguments.warm_start.as_deref();
+    let start = start(&batch, warm_start)?;
+    let manifest = Manifest::of(&batch, warm_start, arguments.trajectories)?;
     let resumes = arguments.resume || retries;
     let (mut writer, mut done) = Writer::open(out, manifest, shard, resumes)?;
     if retries && writer.retract(&arguments.retry)? > 0 {
@@ -119,6 +126,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 
     let mut engine = Engine::default();
     engine.jobs = arguments.jobs.unwrap_or(engine.jobs);
+    engine.start = start.clone();
     engine.motions = arguments.trajectories;
     engine.isolation = isolation(arguments, path, &batch)?;
     let left = || shard.positions(batch.count()).filter(|row| !done.has(*row));
@@ -152,11 +160,23 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         ));
         return Ok(Outcome::Interrupted);
     }
-    solutions::write(&batch, &keys, out)?;
+    solutions::write(&batch, (&keys, start.as_ref()), out)?;
     if !arguments.quiet || arguments.json {
         show::print(writer.set(), arguments.json)?;
     }
     Ok(Outcome::Done)
+}
+
+/// The saved solution that every plan starts from, which has to fit the first problem that can be.
+fn start(batch: &BatchFile, solution: Option<&Path>) -> Result<Option<Start>, Failure> {
+    let Some(solution) = solution else {
+        return Ok(None);
+    };
+    let mut rows = (0..batch.count()).filter_map(|position| batch.row(position).ok());
+    let first = rows
+        .next()
+        .ok_or_else(|| Failure::Usage(format!("{}: has no row that is a problem", batch.path)))?;
+    Ok(Some(read_warm_start(solution, &first.file)?.start))
 }
 
 /// Processes where they are asked for, and where the linear solver cannot serve two threads.
@@ -183,6 +203,9 @@ fn isolation(arguments: &Arguments, path: &Path, batch: &BatchFile) -> Result<Is
     }
     if arguments.trajectories {
         own.push("--trajectories".into());
+    }
+    if let Some(solution) = &arguments.warm_start {
+        own.extend(["--warm-start".into(), solution.into()]);
     }
     if trusts_options() {
         own.push("--trust-options".into());

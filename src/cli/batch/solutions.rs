@@ -4,7 +4,7 @@ use crate::cli::failure::Failure;
 use crate::cli::plan::add;
 use crate::config::BatchFile;
 use crate::nlp::Control;
-use crate::planner::{Method, Planner};
+use crate::planner::{Method, Planner, Start};
 use crate::report::{FileSet, OutputFolder};
 use std::path::Path;
 
@@ -27,7 +27,11 @@ pub(super) fn positions(batch: &BatchFile, keys: &[String]) -> Result<Vec<u64>, 
 
 /// Plans these rows once more, which gives the same, and writes all files of theirs. A row without a
 /// problem has none.
-pub(super) fn write(batch: &BatchFile, positions: &[u64], out: &Path) -> Result<(), Failure> {
+pub(super) fn write(
+    batch: &BatchFile,
+    (positions, start): (&[u64], Option<&Start>),
+    out: &Path,
+) -> Result<(), Failure> {
     let mut planner = Planner::new();
     for position in positions {
         let Ok(row) = batch.row(*position) else {
@@ -38,7 +42,7 @@ pub(super) fn write(batch: &BatchFile, positions: &[u64], out: &Path) -> Result<
             continue;
         }
         let method = Method::Collocation(problem.mesh.method);
-        let planned = planner.plan_by(method, problem, None, &mut |_| Control::Continue);
+        let planned = planner.plan_by(method, problem, start, &mut |_| Control::Continue);
         let mut plan = planned.map_err(|error| Failure::planning(file, None, error))?;
         plan.verify(problem);
         let folder = out.join("solutions").join(batch.key(*position));

@@ -22,6 +22,9 @@ pub(in crate::cli) struct Arguments {
     /// Limit on the time of a plan
     #[arg(long, value_parser = super::seconds)]
     time_limit: Option<Duration>,
+    /// Saved solution that every plan starts from
+    #[arg(long)]
+    warm_start: Option<PathBuf>,
     /// Whether records have the planned motions
     #[arg(long)]
     trajectories: bool,
@@ -39,7 +42,8 @@ pub(in crate::cli) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             "{path}: changed while the batch was planned"
         )));
     }
-    let mut planner = RowPlanner::new(arguments.trajectories);
+    let start = super::start(&batch, arguments.warm_start.as_deref())?;
+    let mut planner = RowPlanner::new(start, arguments.trajectories);
     let faults = Faults::of_environment();
     let mut output = std::io::stdout().lock();
     let mut say = |line: &str| {

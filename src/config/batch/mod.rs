@@ -226,9 +226,10 @@ impl Base {
         let mut document: Node = self.file.document().clone();
         let mut flags = overrides.flags();
         for (vary, cell) in self.sweep.vary.iter().zip(&given) {
+            // With its line: what stands in a file is not trusted as the command line is.
             let place = Place {
-                source: format!("{}: row {position}", vary.place).into(),
-                line: None,
+                source: format!("row {position}: {}", vary.place.source).into(),
+                line: vary.place.line,
             };
             lay(&mut document, &vary.key, &place, &cell.value(&place))?;
             flags.push(format!("--set {}={}", vary.name, cell.toml()));

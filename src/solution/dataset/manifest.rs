@@ -3,6 +3,7 @@
 use super::error::{self, DataSetError};
 use crate::config::{BatchFile, CellKind};
 use crate::nlp::ipopt;
+use crate::solution::provenance::fingerprint;
 use crate::solution::{Build, TextFile};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -21,6 +22,9 @@ pub struct Manifest {
     pub fingerprint: String,
     /// The keys that vary, with what their values are.
     pub keys: Vec<(String, CellKind)>,
+    /// SHA-256 of the saved solution that every plan starts from, hexadecimal.
+    #[serde(default)]
+    pub start: Option<String>,
     /// Whether rows have the planned motions.
     pub trajectories: bool,
     /// Version of the program with its git revision.
@@ -38,14 +42,27 @@ pub struct Manifest {
 const NAME: &str = "_batch.json";
 
 impl Manifest {
-    /// That of `batch`.
-    pub fn of(batch: &BatchFile, trajectories: bool) -> Self {
+    /// That of `batch`, every plan of which starts from the saved solution at `start`, where there is
+    /// one.
+    ///
+    /// # Errors
+    /// [`DataSetError::Read`] where that cannot be read.
+    pub fn of(
+        batch: &BatchFile,
+        start: Option<&Path>,
+        trajectories: bool,
+    ) -> Result<Self, DataSetError> {
         let file = |path: &str, text: &str| TextFile {
             path: path.into(),
             text: text.into(),
         };
         let base = batch.base();
-        Self {
+        let hash = |path: &Path| {
+            let text = std::fs::read_to_string(path).map_err(error::read(path))?;
+            Ok(fingerprint(&text))
+        };
+        Ok(Self {
+            start: start.map(hash).transpose()?,
             schema: 1,
             rows: batch.count(),
             fingerprint: batch.fingerprint().into(),
@@ -56,7 +73,7 @@ impl Manifest {
             batch: file(&batch.path, &batch.text),
             problem: base.map(|base| file(&base.path, &base.text)),
             robot: base.map(|base| file(&base.robot.path, &base.robot.text)),
-        }
+        })
     }
 
     /// That of `folder`, where there is one.
@@ -104,6 +121,9 @@ impl Manifest {
     pub(super) fn difference(&self, other: &Self) -> Option<&'static str> {
         if self.fingerprint != other.fingerprint || self.keys != other.keys {
             return Some("problem, robot, seed or values");
+        }
+        if self.start != other.start {
+            return Some("--warm-start");
         }
         (self.trajectories != other.trajectories).then_some("--trajectories")
     }

@@ -5,6 +5,7 @@ use super::{EngineError, Record, RowPlanner, RowStatus, Tasks};
 use crate::nlp::Control;
 use crate::nlp::ipopt::interrupt;
 use crate::parallel;
+use crate::planner::Start;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, SyncSender, sync_channel};
@@ -34,6 +35,8 @@ pub enum Isolation {
 pub struct Engine {
     /// Rows at a time, each on one thread.
     pub jobs: NonZero<usize>,
+    /// What every plan begins with: one start for all, so that no row depends on another.
+    pub start: Option<Start>,
     /// Whether records have the planned motions.
     pub motions: bool,
     /// Where rows are planned.
@@ -55,6 +58,7 @@ impl Default for Engine {
     fn default() -> Self {
         Self {
             jobs: NonZero::new(parallel::thread_count()).unwrap_or(NonZero::<usize>::MIN),
+            start: None,
             motions: false,
             isolation: Isolation::Threads,
         }
@@ -135,7 +139,7 @@ impl Engine {
         sender: &SyncSender<Result<Record, EngineError>>,
     ) {
         let stopped = || stop.load(Ordering::Relaxed) || interrupt::requested();
-        let mut here = RowPlanner::new(self.motions);
+        let mut here = RowPlanner::new(self.start.clone(), self.motions);
         let mut elsewhere = match &self.isolation {
             Isolation::Threads => None,
             Isolation::Processes(command) => Some(Process::of(command)),

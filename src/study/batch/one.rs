@@ -3,7 +3,7 @@
 use super::{Figures, Motion, Record, Refusal, RowStatus, Task, Tasks};
 use crate::nlp::Control;
 use crate::nlp::ipopt::interrupt;
-use crate::planner::{Event, Method, Plan, PlanError, Planner, Status};
+use crate::planner::{Event, Method, Plan, PlanError, Planner, Start, Status};
 use crate::printable::one_line;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,14 +19,19 @@ const LONGEST: usize = 1_000;
 #[derive(Debug, Default)]
 pub struct RowPlanner {
     planner: Planner,
+    start: Option<Start>,
     motions: bool,
 }
 
 impl RowPlanner {
-    /// One that keeps the planned motions in its records where it is asked to.
-    pub fn new(motions: bool) -> Self {
-        let planner = Planner::new();
-        Self { planner, motions }
+    /// One that begins every plan at `start`, where there is one, and keeps the planned motions in its
+    /// records where it is asked to.
+    pub fn new(start: Option<Start>, motions: bool) -> Self {
+        Self {
+            planner: Planner::new(),
+            start,
+            motions,
+        }
     }
 
     /// Plans the row at `position`. Whatever goes wrong, a panic included, is in its record.
@@ -40,7 +45,8 @@ impl RowPlanner {
         // What a panic leaves half done in the planner goes with it.
         let planned = catch_unwind(AssertUnwindSafe(|| {
             let task = tasks.task(position)?;
-            Ok::<_, Refusal>((plan(&mut self.planner, &task), task))
+            let planned = plan(&mut self.planner, &task, self.start.as_ref());
+            Ok::<_, Refusal>((planned, task))
         }));
         match planned {
             Ok(Ok((Ok(plan), task))) => {
@@ -78,10 +84,10 @@ impl RowPlanner {
     }
 }
 
-fn plan(planner: &mut Planner, task: &Task) -> Result<Plan, PlanError> {
+fn plan(planner: &mut Planner, task: &Task, start: Option<&Start>) -> Result<Plan, PlanError> {
     let problem = &task.problem;
     let method = Method::Collocation(problem.mesh.method);
-    let mut plan = planner.plan_by(method, problem, None, &mut |event| {
+    let mut plan = planner.plan_by(method, problem, start, &mut |event| {
         // Ipopt asks by itself.
         match matches!(event, Event::Step { .. }) && interrupt::requested() {
             true => Control::Stop,
