@@ -9,6 +9,9 @@ pub(super) const ROW: &str = "row";
 /// How the rows ended.
 pub(super) const STATUS: &str = "status";
 
+/// A column by its name, and its value of one row.
+type Named<T, V> = (&'static str, fn(&T) -> V);
+
 /// The columns of `records`, those of the keys that vary among them, and those of the motions where
 /// they are asked for.
 pub(super) fn of(records: &[Record], keys: &[(String, CellKind)], motions: bool) -> Vec<Column> {
@@ -25,13 +28,13 @@ pub(super) fn of(records: &[Record], keys: &[(String, CellKind)], motions: bool)
     for (i, (name, kind)) in keys.iter().enumerate() {
         columns.push(column(name, cells(records, i, *kind)));
     }
-    let integers: [(&str, fn(&Figures) -> i64); 4] = [
+    let integers: [Named<Figures, i64>; 4] = [
         ("points", |f| f.points as i64),
         ("segments", |f| f.segments as i64),
         ("mesh_iterations", |f| f.mesh_iterations as i64),
         ("nlp_iterations", |f| f.nlp_iterations as i64),
     ];
-    let numbers: [(&str, fn(&Figures) -> Option<f64>); 17] = [
+    let numbers: [Named<Figures, Option<f64>>; 17] = [
         ("objective", |f| Some(f.objective)),
         ("max_error", |f| Some(f.max_error)),
         ("max_base_attitude", |f| Some(f.max_base_attitude)),
@@ -77,19 +80,19 @@ pub(super) fn of(records: &[Record], keys: &[(String, CellKind)], motions: bool)
 }
 
 fn motion(records: &[Record]) -> impl Iterator<Item = Column> {
-    let rows: [(&str, fn(&Motion) -> &Vec<Vec<f64>>); 7] = [
-        ("base_attitude", |m| &m.base_attitude),
-        ("base_position", |m| &m.base_position),
-        ("base_rate", |m| &m.base_rate),
-        ("joint_position", |m| &m.joint_position),
-        ("joint_velocity", |m| &m.joint_velocity),
-        ("control", |m| &m.control),
-        ("joint_torque", |m| &m.joint_torque),
+    let rows: [Named<Motion, Vec<Vec<f64>>>; 7] = [
+        ("base_attitude", |m| m.base_attitude.clone()),
+        ("base_position", |m| m.base_position.clone()),
+        ("base_rate", |m| m.base_rate.clone()),
+        ("joint_position", |m| m.joint_position.clone()),
+        ("joint_velocity", |m| m.joint_velocity.clone()),
+        ("control", |m| m.control.clone()),
+        ("joint_torque", |m| m.joint_torque.clone()),
     ];
     let t = each(records, |r| r.motion.as_ref().map(|m| m.t.clone()));
     let t = column("t", Data::Numbers(t));
     std::iter::once(t).chain(rows.into_iter().map(|(name, of)| {
-        let values = each(records, |r| r.motion.as_ref().map(|m| of(m).clone()));
+        let values = each(records, |r| r.motion.as_ref().map(of));
         column(name, Data::Rows(values))
     }))
 }
