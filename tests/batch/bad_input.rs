@@ -150,7 +150,7 @@ fn tables() {
     folder.write("t.csv", "y,z\n1,2\n");
     assert_eq!(
         complaint(&folder, &TO),
-        "batch.toml:17: vary[2].column: \"x\"; expected a column of it; expected one of y, z"
+        "batch.toml:17: vary[2].column: \"x\"; expected a column of it; did you mean 'y'?"
     );
     folder.write("t.csv", "x\n1\n\"\"\n");
     assert!(complaint(&folder, &TO).contains("row 1 of the column has \"\""));

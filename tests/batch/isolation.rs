@@ -80,10 +80,18 @@ column = "duration"
         "{}",
         reasons[3]
     );
-    assert!(reasons[4].contains("final base attitude"), "{}", reasons[4]);
+    assert!(
+        reasons[4].contains("limits.final_base_attitude"),
+        "{}",
+        reasons[4]
+    );
     let begins = "row 5: batch.toml:8: task.duration: -1; expected a finite duration above zero";
     assert!(reasons[5].starts_with(begins), "{}", reasons[5]);
-    assert!(reasons[7].contains("least"), "{}", reasons[7]);
+    assert!(
+        reasons[7].contains("task.duration: 0.1 s"),
+        "{}",
+        reasons[7]
+    );
     // What a row has is said where there is a problem, and nowhere else.
     assert_eq!(found[&7]["task.duration"], "0.1");
     assert_eq!(found[&5]["task.duration"], "");

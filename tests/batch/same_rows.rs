@@ -146,3 +146,26 @@ fn a_time_limit_that_is_not_reached_changes_nothing() {
     plan(&folder, "limited", &["--time-limit", "60"]);
     assert_eq!(rows(&folder, "limited"), rows(&folder, "o"));
 }
+
+/// The script for Slurm, given what Slurm gives it.
+#[test]
+fn tasks_of_a_job_array_share_the_rows() {
+    let folder = folder(BATCH);
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/slurm-array.sh");
+    let task = |id: &str| {
+        std::process::Command::new("bash")
+            .args([script, "batch.toml", "o"])
+            .env("FFSM_IPOPT", env!("CARGO_BIN_EXE_ffsm-ipopt"))
+            .env("SLURM_ARRAY_TASK_ID", id)
+            .env("SLURM_ARRAY_TASK_COUNT", "2")
+            .current_dir(folder.path())
+            .spawn()
+            .unwrap()
+    };
+    let tasks = ["1", "2"].map(task);
+    for mut task in tasks {
+        assert!(task.wait().unwrap().success());
+    }
+    plan(&folder, "whole", &[]);
+    assert_eq!(rows(&folder, "o"), rows(&folder, "whole"));
+}

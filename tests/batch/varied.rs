@@ -69,23 +69,23 @@ fn correlated_values() {
 problem = "case.toml"
 count = 40
 [[vary]]
-keys = ["robot.bodies.forearm.mass", "robot.bodies.forearm.com[0]"]
+keys = ["robot.bodies.forearm.mass", "task.final.joints[0]"]
 normal = { mean = [1.4, 0.35], covariance = [[0.01, 0.0018], [0.0018, 0.0004]] }
 "#,
     );
     plan(&folder, "o", &[]);
     let found = rows(&folder, "o");
     let mass = numbers(&found, "robot.bodies.forearm.mass");
-    let com = numbers(&found, "robot.bodies.forearm.com[0]");
+    let goal = numbers(&found, "task.final.joints[0]");
     let mean = |values: &[f64]| values.iter().sum::<f64>() / 40.0;
-    let (m, c) = (mean(&mass), mean(&com));
+    let (m, c) = (mean(&mass), mean(&goal));
     let sum = |a: &[f64], a0: f64, b: &[f64], b0: f64| {
         a.iter()
             .zip(b)
             .map(|(a, b)| (a - a0) * (b - b0))
             .sum::<f64>()
     };
-    let both = sum(&mass, m, &com, c) / (sum(&mass, m, &mass, m) * sum(&com, c, &com, c)).sqrt();
+    let both = sum(&mass, m, &goal, c) / (sum(&mass, m, &mass, m) * sum(&goal, c, &goal, c)).sqrt();
     // 0.9 is meant; five standard errors of Fisher's transform at 40 samples leave 0.6.
     assert!(both > 0.6, "{both}");
     assert!(

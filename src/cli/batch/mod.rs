@@ -38,8 +38,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR", required = true)]
     out: Option<PathBuf>,
     /// Plans at a time, each on one thread [default: one a processor]
-    #[arg(long, value_name = "N")]
-    jobs: Option<NonZero<usize>>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_JOBS))]
+    jobs: Option<u16>,
     /// Plan only every Nth row, from the Ith on; several shards may write to one folder at a time
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<Shard>,
@@ -74,6 +74,9 @@ pub(super) struct Arguments {
     #[arg(long)]
     quiet: bool,
 }
+
+/// Most plans at a time.
+const MOST_JOBS: i64 = 1024;
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -125,7 +128,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     interrupt::listen();
 
     let mut engine = Engine::default();
-    engine.jobs = arguments.jobs.unwrap_or(engine.jobs);
+    let jobs = arguments
+        .jobs
+        .and_then(|jobs| NonZero::new(usize::from(jobs)));
+    engine.jobs = jobs.unwrap_or(engine.jobs);
     engine.start = start.clone();
     engine.motions = arguments.trajectories;
     engine.isolation = isolation(arguments, path, &batch)?;

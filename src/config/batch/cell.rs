@@ -76,7 +76,7 @@ impl Cell {
     pub(super) fn toml(&self) -> String {
         match self {
             Self::Number(number) => toml_number(*number),
-            Self::Text(text) => super::lines::text(text),
+            Self::Text(string) => text(string),
             Self::Numbers(numbers) => {
                 let numbers: Vec<String> = numbers.iter().copied().map(toml_number).collect();
                 format!("[{}]", numbers.join(", "))
@@ -92,6 +92,12 @@ fn of_number(number: f64) -> Value {
         true => Value::Integer(number as i64),
         false => Value::Float(number),
     }
+}
+
+/// A string of JSON is one of TOML, the character DEL apart.
+pub(super) fn text(string: &str) -> String {
+    let quoted = serde_json::Value::from(string).to_string();
+    quoted.replace('\u{7f}', "\\u007f")
 }
 
 fn toml_number(number: f64) -> String {

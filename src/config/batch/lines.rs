@@ -1,6 +1,7 @@
 //! JSON lines: a whole problem a line, with the keys of a problem file.
 
-use super::MOST_ROWS;
+use super::cell::text;
+use super::vary::MOST_ROWS;
 use crate::config::document::{Node, Value};
 use crate::config::{ConfigError, Place, regular};
 use sha2::{Digest, Sha256};
@@ -161,12 +162,6 @@ fn inline(node: &Node) -> String {
             format!("{{ {} }}", list(entries.iter().map(entry).collect()))
         }
     }
-}
-
-/// A string of JSON is one of TOML, the character DEL apart.
-pub(super) fn text(string: &str) -> String {
-    let quoted = serde_json::Value::from(string).to_string();
-    quoted.replace('\u{7f}', "\\u007f")
 }
 
 #[cfg(test)]

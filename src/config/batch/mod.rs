@@ -32,8 +32,6 @@ use std::time::Duration;
 use table::Tables;
 use vary::Sweep;
 
-/// Most rows of a batch.
-const MOST_ROWS: u64 = 100_000_000;
 /// Rows that are tried when a batch is loaded.
 const TRIED: u64 = 16;
 

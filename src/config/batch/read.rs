@@ -1,9 +1,9 @@
 //! The tables of a batch file.
 
+use super::Cell;
 use super::draw::{Distribution, LEAST_INSIDE, cholesky, inside};
 use super::table::Tables;
-use super::vary::{Sweep, Values, Vary};
-use super::{Cell, MOST_ROWS};
+use super::vary::{MOST_ROWS, Sweep, Values, Vary};
 use crate::config::ConfigError;
 use crate::config::document::{Value, quoted};
 use crate::config::item::{Item, Section};

@@ -1,6 +1,7 @@
 //! Columns of tables in other files: CSV with a header, or Parquet.
 
-use super::{Cell, MOST_ROWS};
+use super::Cell;
+use super::vary::MOST_ROWS;
 use crate::config::document::quoted;
 use crate::config::item::{Item, hint};
 use crate::config::{ConfigError, Place, regular};

@@ -5,6 +5,9 @@ use super::draw::{Distribution, normal};
 use crate::config::Place;
 use crate::config::key_path::KeyPath;
 
+/// Most rows of a batch.
+pub(super) const MOST_ROWS: u64 = 100_000_000;
+
 /// A key of the problem file with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Vary {

@@ -14,6 +14,8 @@ use std::time::Duration;
 
 /// Stack of a thread that plans, bytes: that of a main thread.
 const STACK: usize = 8 << 20;
+/// Records that wait to be told.
+const WAITING: usize = 64;
 /// How often something is told where no row ends.
 const TICK: Duration = Duration::from_millis(200);
 
@@ -87,7 +89,7 @@ impl Engine {
                 .next()
         };
         let stop = AtomicBool::new(false);
-        let (sender, records) = sync_channel(2 * self.jobs.get());
+        let (sender, records) = sync_channel(WAITING);
         std::thread::scope(|scope| {
             // Its own from here on: once it is gone, no thread waits for its record to be taken.
             let records = records;
