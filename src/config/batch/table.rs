@@ -110,23 +110,23 @@ fn csv(path: &Path, wanted: &str) -> Result<Vec<Cell>, Trouble> {
         let record = record.map_err(unreadable)?;
         texts.push(record.get(at).unwrap_or_default().to_owned());
     }
-    let numbers = texts.iter().map(|text| text.parse::<f64>().ok());
-    let finite = numbers.map(|number| number.filter(|number| number.is_finite()));
-    match finite.collect::<Option<Vec<f64>>>() {
-        Some(numbers) => Ok(numbers.into_iter().map(Cell::Number).collect()),
-        None => texts.into_iter().enumerate().map(text).collect(),
+    let number = |text: &String| text.parse::<f64>().ok().filter(|number| number.is_finite());
+    let numbers: Vec<Option<f64>> = texts.iter().map(number).collect();
+    let is_number = numbers.first().is_some_and(Option::is_some);
+    let fits = |row: usize| numbers[row].is_some() == is_number && !texts[row].is_empty();
+    if let Some(row) = (0..texts.len()).find(|row| !fits(*row)) {
+        let kind = if is_number {
+            "a finite number"
+        } else {
+            "a text that is no number"
+        };
+        let found = quoted(&texts[row]);
+        let message = format!("row {row} of the column has {found}; expected {kind}");
+        return Err(Trouble::Unreadable(message));
     }
-}
-
-/// A value that is no number: a text, unless it was to be a number.
-fn text((row, text): (usize, String)) -> Result<Cell, Trouble> {
-    match text.is_empty() || text.parse::<f64>().is_ok() {
-        true => Err(Trouble::Unreadable(format!(
-            "row {row} of the column has {}, where others have text or finite numbers",
-            quoted(&text)
-        ))),
-        false => Ok(Cell::Text(text)),
-    }
+    let cell =
+        |(number, text): (Option<f64>, String)| number.map_or(Cell::Text(text), Cell::Number);
+    Ok(numbers.into_iter().zip(texts).map(cell).collect())
 }
 
 fn parquet(path: &Path, wanted: &str) -> Result<Vec<Cell>, Trouble> {
