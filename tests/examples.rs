@@ -1,5 +1,7 @@
 //! Every example runs and its own assertions hold.
 
+#[path = "../examples/batch_in_code.rs"]
+mod batch_in_code;
 #[path = "../examples/free_flying_robot.rs"]
 mod free_flying_robot;
 #[path = "../examples/own_problem.rs"]
@@ -79,4 +81,9 @@ fn the_shuttle_flies_the_same_in_any_unit_under_any_ceiling() {
         let points = outcome.trajectory.mesh.points();
         assert!(points <= 2 * 300, "{points} points");
     }
+}
+
+#[test]
+fn batch_in_code_runs() {
+    batch_in_code::main().unwrap();
 }

@@ -1,14 +1,16 @@
 //! What callers may rely on of the public types: they move between threads and can be shared.
 
 use ffsm_ipopt::collocation::MeshError;
-use ffsm_ipopt::config::{ConfigError, Place};
+use ffsm_ipopt::config::{BatchFile, BatchRow, ConfigError, Place};
 use ffsm_ipopt::dynamics::space::{Planar, Spatial};
 use ffsm_ipopt::dynamics::{InertiaError, Model, ModelError, Tree};
 use ffsm_ipopt::nlp::ipopt::IpoptError;
 use ffsm_ipopt::planner::{Diagnosis, Method, Plan, PlanError, Planner, Status};
 use ffsm_ipopt::problem::{LimitId, Problem, ProblemBuilder, ProblemError, Unit};
 use ffsm_ipopt::report::OutputError;
+use ffsm_ipopt::solution::dataset::{DataSet, DataSetError, Writer};
 use ffsm_ipopt::solution::{Solution, SolutionError};
+use ffsm_ipopt::study::batch::{Engine, EngineError, Record, RowPlanner};
 use ffsm_ipopt::study::{Comparison, pareto::ParetoPoint};
 use ffsm_ipopt::system::{CostTerms, FreeFloating, System, Trajectory};
 use ffsm_ipopt::transcription::Discretization;
@@ -31,6 +33,8 @@ fn public_types_move_between_threads_and_can_be_shared() {
     shared::<(Comparison, ParetoPoint)>();
     shared::<(Verification, VerifyError)>();
     shared::<Solution>();
+    shared::<(BatchFile, BatchRow, Engine, EngineError, Record, RowPlanner)>();
+    shared::<(DataSet, DataSetError, Writer)>();
 }
 
 /// A chain of errors says each thing once.
@@ -57,7 +61,7 @@ fn errors_do_not_repeat_their_sources() {
         key: "link[0].mass".into(),
         cause: mass,
     };
-    let errors: [Box<dyn Error>; 9] = [
+    let errors: [Box<dyn Error>; 11] = [
         Box::new(PlanError::from(problem)),
         Box::new(PlanError::from(MeshError::NoSegments)),
         Box::new(PlanError::from(IpoptError::NoMultipliers)),
@@ -77,6 +81,11 @@ fn errors_do_not_repeat_their_sources() {
             reason: missing().to_string(),
         }),
         Box::new(OutputError::File {
+            path: path(),
+            cause: missing(),
+        }),
+        Box::new(EngineError::Thread(missing())),
+        Box::new(DataSetError::Write {
             path: path(),
             cause: missing(),
         }),

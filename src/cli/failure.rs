@@ -8,6 +8,8 @@ use crate::report::OutputError;
 use crate::reproduction::ReproductionError;
 use crate::simulate::SimulateError;
 use crate::solution::SolutionError;
+use crate::solution::dataset::DataSetError;
+use crate::study::batch::EngineError;
 use std::path::Path;
 
 /// What keeps a command from being carried out.
@@ -33,6 +35,14 @@ pub(super) enum Failure {
     Reproduction(#[from] ReproductionError),
     #[error("standard output cannot be written: {0}")]
     Terminal(std::io::Error),
+    #[error(transparent)]
+    DataSet(#[from] DataSetError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(
+        "the path of this program, which is to plan in processes of its own, is not known: {cause}"
+    )]
+    Program { cause: std::io::Error },
     #[error("no linear solver works with this Ipopt; install one, such as MUMPS")]
     NoLinearSolver,
 }
@@ -49,7 +59,9 @@ impl Failure {
             Self::Output(OutputError::Folder { .. }) => 2,
             Self::Output(OutputError::File { .. } | OutputError::Figure { .. }) => 1,
             Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,
-            Self::NoLinearSolver => 1,
+            Self::NoLinearSolver | Self::Engine(_) | Self::Program { .. } => 1,
+            Self::DataSet(DataSetError::Write { .. } | DataSetError::Encode { .. }) => 1,
+            Self::DataSet(_) => 2,
             Self::Reproduction(ReproductionError::Interrupted) => Outcome::Interrupted as u8,
             Self::Reproduction(
                 ReproductionError::Config(_)

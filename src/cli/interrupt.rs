@@ -30,6 +30,17 @@ pub(super) fn guard() {
     }
 }
 
+/// From now on signals that end a batch do nothing here: it ends its workers itself.
+pub(super) fn leave_to_batch() {
+    // Without handlers a worker only ends sooner than it is told to.
+    if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) {
+        let ignore = move || signals.forever().for_each(drop);
+        let _ = std::thread::Builder::new()
+            .name("signals".into())
+            .spawn(ignore);
+    }
+}
+
 /// From now on a signal makes running solves end as interrupted.
 pub(super) fn listen() {
     SOLVING.store(true, Ordering::Relaxed);

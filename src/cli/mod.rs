@@ -1,5 +1,6 @@
 //! The command line; one file a command.
 
+mod batch;
 mod check;
 mod compare;
 mod completions;
@@ -71,6 +72,9 @@ enum Command {
     Table2(table2::Arguments),
     Compare(compare::Arguments),
     Pareto(pareto::Arguments),
+    Batch(batch::Arguments),
+    #[command(hide = true)]
+    BatchWorker(batch::worker::Arguments),
     Figures(figures::Arguments),
     Reproduce(reproduce::Arguments),
     Verify(verify::Arguments),
@@ -104,13 +108,19 @@ pub fn run() -> ExitCode {
     if let Some(threads) = threads {
         parallel::set_thread_count(threads);
     }
-    interrupt::guard();
+    // A batch ends its workers itself.
+    match command {
+        Command::BatchWorker(_) => interrupt::leave_to_batch(),
+        _ => interrupt::guard(),
+    }
     let result = match command {
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Table2(arguments) => table2::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Pareto(arguments) => pareto::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments),
+        Command::BatchWorker(arguments) => batch::worker::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),

@@ -118,6 +118,22 @@ pub enum ConfigError {
         /// Why.
         cause: Box<Impossible>,
     },
+    /// A key of a batch whose value is not what the problem then has there.
+    #[error(
+        "{place}: {key}: {given} was given, and the problem {}; expected a key whose value gets into \
+         the problem",
+        .found.as_ref().map_or("says nothing of it".into(), |found| format!("has {found}"))
+    )]
+    Unvaried {
+        /// The line of the batch file.
+        place: Place,
+        /// Full key path.
+        key: String,
+        /// What was given.
+        given: String,
+        /// What the problem has; `None` where it says nothing of such a key.
+        found: Option<String>,
+    },
     /// Several things that are wrong with one file.
     #[error("{place}: {} faults: {}", .faults.len(), listed(.faults))]
     Several {
@@ -186,6 +202,7 @@ impl ConfigError {
             | Self::Model { place, .. }
             | Self::Unphysical { place, .. }
             | Self::Impossible { place, .. }
+            | Self::Unvaried { place, .. }
             | Self::Several { place, .. } => place,
         }
     }

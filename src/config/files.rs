@@ -16,6 +16,8 @@ pub(super) enum Files<'a> {
     Shipped,
     /// Texts kept elsewhere, by their paths.
     Kept(&'a [(&'a str, &'a str)]),
+    /// Texts read from the disk before, by their paths; other files from there.
+    Held(&'a [(&'a str, &'a str)]),
 }
 
 /// The shipped files by their paths.
@@ -125,6 +127,10 @@ impl Files<'_> {
     ) -> Result<String, String> {
         match self {
             Self::Disk => decode(regular::read(path, LARGEST)?),
+            Self::Held(texts) => match texts.iter().find(|(name, _)| Path::new(name) == path) {
+                Some((_, text)) => Ok(text.to_string()),
+                None => Self::Disk.read_as(path, decode),
+            },
             Self::Shipped => SHIPPED
                 .iter()
                 .find(|(name, _)| Path::new(name) == without_parents(path))

@@ -18,8 +18,14 @@ pub(super) fn read(section: &Section<'_>) -> Result<Inertia, ConfigError> {
 
 /// Those of a body of a robot, where they are figures; whether a body can have them is another
 /// matter.
-pub(super) fn read_body(section: &Section<'_>) -> Result<Result<Inertia, Unusable>, ConfigError> {
-    let figures = figures(section)?;
+///
+/// `change` may lay other figures over them first.
+pub(super) fn read_body(
+    section: &Section<'_>,
+    change: impl FnOnce(&mut Figures),
+) -> Result<Result<Inertia, Unusable>, ConfigError> {
+    let mut figures = figures(section)?;
+    change(&mut figures);
     let inertia = body(&figures);
     Ok(inertia.map_err(|cause| Unusable::Unphysical(Box::new(figures), cause)))
 }
@@ -62,9 +68,11 @@ fn figures(section: &Section<'_>) -> Result<Figures, ConfigError> {
     })
 }
 
-const EXPECTED: &str = "a number, [Ixx, Iyy, Izz] or a 3×3 matrix about the mass centre, kg m²";
+pub(super) const EXPECTED: &str =
+    "a number, [Ixx, Iyy, Izz] or a 3×3 matrix about the mass centre, kg m²";
 
-fn matrix(item: &Item<'_>) -> Result<Matrix3<f64>, ConfigError> {
+/// A rotational inertia: one number for all axes, the diagonal, or rows.
+pub(super) fn matrix(item: &Item<'_>) -> Result<Matrix3<f64>, ConfigError> {
     if item.as_number().is_some() {
         return Ok(Matrix3::identity() * item.number(EXPECTED)?);
     }

@@ -8,6 +8,7 @@
 //! formats.
 
 mod base;
+mod batch;
 mod document;
 mod error;
 mod faults;
@@ -18,10 +19,12 @@ mod goal;
 mod inertia;
 mod item;
 mod keep_out;
+mod key_path;
 mod long_way;
 mod overrides;
 mod platform;
 mod problem;
+mod read_back;
 pub(crate) mod regular;
 mod robot;
 mod starter;
@@ -31,6 +34,7 @@ mod values;
 mod way_point;
 mod xml_text;
 
+pub use batch::{BatchFile, BatchRow, Cell, CellKind};
 pub use error::{ConfigError, Place, Remedy};
 pub use fit::{Experiment, FitFile, Hypothesis, PlanSource};
 pub use overrides::Overrides;
@@ -38,7 +42,7 @@ pub use platform::PlatformFile;
 pub use problem::ProblemFile;
 pub use robot::RobotFile;
 pub use starter::{Starter, StarterJoint};
-pub use trust::trust_options;
+pub use trust::{trust_options, trusts_options};
 
 use document::Value;
 use item::Section;

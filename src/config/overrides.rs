@@ -1,6 +1,7 @@
 //! Values given on the command line, laid over the problem file before it is read.
 
 use super::document::{Node, Value};
+use super::key_path::{KeyPath, Step};
 use super::{ConfigError, Place};
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ pub struct Overrides {
 struct Entry {
     /// As it was written, for messages.
     flag: String,
-    key: String,
+    key: KeyPath,
     value: Value,
 }
 
@@ -42,14 +43,13 @@ impl Overrides {
             let message = "no '='; expected --set key.path=value".into();
             return Err(ConfigError::Format { place, message });
         };
-        let key = key.trim();
-        if key.split('.').any(|part| part.is_empty()) {
+        let Some(key) = KeyPath::parse(key.trim()) else {
             let message = "a part of the key is empty; expected --set key.path=value".into();
             return Err(ConfigError::Format { place, message });
-        }
+        };
         self.entries.push(Entry {
             value: value_of(&flag, value.trim()),
-            key: key.into(),
+            key,
             flag,
         });
         Ok(())
@@ -57,12 +57,7 @@ impl Overrides {
 
     /// Adds a text for `key`, given by the option `flag`.
     pub fn text(&mut self, flag: &str, key: &str, value: &str) {
-        let value = Value::Text(value.into());
-        self.entries.push(Entry {
-            flag: flag.into(),
-            key: key.into(),
-            value,
-        });
+        self.add(flag, key, Value::Text(value.into()));
     }
 
     const REPAIR: &str = "--repair";
@@ -76,10 +71,13 @@ impl Overrides {
 
     /// Adds a number for `key`, given by the option `flag`.
     pub fn number(&mut self, flag: &str, key: &str, value: f64) {
-        let value = Value::Float(value);
+        self.add(flag, key, Value::Float(value));
+    }
+
+    fn add(&mut self, flag: &str, key: &str, value: Value) {
         self.entries.push(Entry {
             flag: flag.into(),
-            key: key.into(),
+            key: KeyPath::parse(key).expect("a key of this program's own"),
             value,
         });
     }
@@ -137,47 +135,75 @@ impl Overrides {
 
 impl Entry {
     fn apply(&self, document: &mut Node) -> Result<(), ConfigError> {
-        let place = place(&self.flag);
-        let mut node = document;
-        let mut path = String::new();
-        for part in self.key.split('.') {
-            if let (ROBOT, Value::Text(_)) = (path.as_str(), &node.value) {
-                tabulate(node);
-            }
-            let found = node.describe();
-            let Value::Table(entries) = &mut node.value else {
-                let expected = "a table, so that a key in it can be set".into();
-                return Err(ConfigError::Value {
-                    place,
-                    key: path,
-                    found,
-                    expected,
-                });
-            };
-            let at = entries
-                .iter()
-                .position(|(key, _)| key == part)
-                .unwrap_or_else(|| {
-                    let table = Node {
-                        place: place.clone(),
-                        value: Value::Table(Vec::new()),
-                    };
-                    entries.push((part.into(), table));
-                    entries.len() - 1
-                });
-            node = &mut entries[at].1;
-            path = if path.is_empty() {
-                part.into()
-            } else {
-                format!("{path}.{part}")
-            };
-        }
-        *node = Node {
-            place: place.clone(),
-            value: self.value.clone(),
-        };
-        Ok(())
+        lay(document, &self.key, &place(&self.flag), &self.value)
     }
+}
+
+/// Lays `value`, given at `place`, over what `key` leads to in `document`. Tables on the way are made
+/// where they are missing, arrays are not.
+pub(super) fn lay(
+    document: &mut Node,
+    key: &KeyPath,
+    place: &Place,
+    value: &Value,
+) -> Result<(), ConfigError> {
+    let mut node = document;
+    for (done, step) in key.steps.iter().enumerate() {
+        let path = || KeyPath {
+            steps: key.steps[..done].to_vec(),
+        };
+        let unusable = |found: String, expected: String| ConfigError::Value {
+            place: place.clone(),
+            key: path().to_string(),
+            found,
+            expected,
+        };
+        let at_robot = key.steps[..done] == [Step::Name(ROBOT.into())];
+        if let (true, Value::Text(_)) = (at_robot, &node.value) {
+            tabulate(node);
+        }
+        let found = node.describe();
+        node = match (step, &mut node.value) {
+            (Step::Name(name), Value::Table(entries)) => {
+                let at = entries
+                    .iter()
+                    .position(|(key, _)| key == name)
+                    .unwrap_or_else(|| {
+                        let table = Node {
+                            place: place.clone(),
+                            value: Value::Table(Vec::new()),
+                        };
+                        entries.push((name.clone(), table));
+                        entries.len() - 1
+                    });
+                &mut entries[at].1
+            }
+            (Step::Name(_), _) => {
+                return Err(unusable(
+                    found,
+                    "a table, so that a key in it can be set".into(),
+                ));
+            }
+            (Step::Index(index), Value::Array(elements)) => {
+                elements.get_mut(*index).ok_or_else(|| {
+                    let least = index + 1;
+                    unusable(
+                        found,
+                        format!("at least {least} values, so that [{index}] can be set"),
+                    )
+                })?
+            }
+            (Step::Index(index), _) => {
+                let expected = format!("an array, so that its value [{index}] can be set");
+                return Err(unusable(found, expected));
+            }
+        };
+    }
+    *node = Node {
+        place: place.clone(),
+        value: value.clone(),
+    };
+    Ok(())
 }
 
 /// The one key that is a path or a table in which the path is one of the keys.
@@ -232,7 +258,10 @@ mod tests {
         for set in sets {
             overrides.set(set)?;
         }
-        let mut node = Node::parse(&"a.toml".into(), "robot = \"r\"\n[mesh]\npoints = 5\n")?;
+        let mut node = Node::parse(
+            &"a.toml".into(),
+            "robot = \"r\"\ngoal = [1, 2]\n[mesh]\npoints = 5\n",
+        )?;
         overrides.apply(&mut node)?;
         Ok(node)
     }
@@ -260,6 +289,16 @@ mod tests {
             Value::Float(f64::INFINITY)
         );
         assert_eq!(value("a.b=1\nc=2", "a", "b"), Value::Text("1\nc=2".into()));
+    }
+
+    #[test]
+    fn a_value_of_an_array_can_be_set() {
+        let goal = document(&["goal[1]=3"]).unwrap();
+        let Value::Array(goal) = &goal.get("goal").unwrap().value else {
+            panic!("an array");
+        };
+        assert_eq!(goal[0].value, Value::Integer(1));
+        assert_eq!(goal[1].value, Value::Integer(3));
     }
 
     #[test]
@@ -306,6 +345,14 @@ mod tests {
             (
                 "mesh.points.x=1",
                 "--set mesh.points.x=1: mesh.points: 5; expected a table, so that a key in it can be set",
+            ),
+            (
+                "mesh.points[0]=1",
+                "--set mesh.points[0]=1: mesh.points: 5; expected an array, so that its value [0] can be set",
+            ),
+            (
+                "goal[2]=1",
+                "--set goal[2]=1: goal: an array of 2 values; expected at least 3 values, so that [2] can be set",
             ),
         ] {
             assert_eq!(document(&[set]).unwrap_err().to_string(), expected);

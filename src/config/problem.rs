@@ -8,9 +8,10 @@ use super::robot::{self, Robot, RobotFile};
 use super::trust::Origin;
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, long_way, tables};
+use crate::dynamics::Inertia;
 use crate::problem::{EXPECTED_NAME, Problem, ProblemBuilder, ProblemError, is_name};
 use crate::system::impossible;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A problem and the files it was read from.
 #[derive(Debug, Clone)]
@@ -28,11 +29,16 @@ pub struct ProblemFile {
     pub robot: RobotFile,
     /// The body at whose frame the end effector is; `None` where the robot has none.
     pub end_effector: Option<String>,
+    /// Mass properties of the bodies that `robot.bodies` changes, each in its own frame, as they went
+    /// into the model.
+    pub bodies: Vec<(String, Inertia)>,
     /// What a user should know of how the files were read, though nothing is wrong; a line each.
     pub notes: Vec<String>,
     /// What was changed of the robot, as `robot.repair` or `robot.minimum_mass` asks or because
     /// `[base]` stands for the root link; a line each.
     pub repairs: Vec<String>,
+    /// Mass properties of `[base]`, as they went into the model.
+    pub(super) spacecraft: Option<Inertia>,
     document: Node,
 }
 
@@ -44,15 +50,24 @@ impl ProblemFile {
     /// [`ConfigError`] for what is found wrong in it, in the robot's file or in `overrides`.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self, ConfigError> {
         let file = Self::read(path, Files::Disk, overrides)?;
+        file.possible()?;
+        Ok(file)
+    }
+
+    /// Asks whether the task can be carried out at all.
+    ///
+    /// # Errors
+    /// [`ConfigError::Impossible`], or several of them, where no motion can do it.
+    pub fn possible(&self) -> Result<(), ConfigError> {
         let mut faults = Faults::default();
-        for cause in impossible(&file.problem) {
-            let place = file.place(&cause.key());
+        for cause in impossible(&self.problem) {
+            let place = self.place(&cause.key());
             let cause = Box::new(cause);
             faults.push(ConfigError::Impossible { place, cause });
         }
         match faults.is_empty() {
-            true => Ok(file),
-            false => Err(faults.into_error(whole(&file.path))),
+            true => Ok(()),
+            false => Err(faults.into_error(whole(&self.path))),
         }
     }
 
@@ -91,13 +106,26 @@ impl ProblemFile {
         let source = files.document(path, "a problem file")?;
         let mut document = source.document;
         overrides.apply(&mut document)?;
-        let (builder, robot, note) = read(&document, path, files)?;
+        let source = (path.to_path_buf(), source.text);
+        Self::of(document, source, files, overrides.flags())
+    }
+
+    /// The problem that `document` describes, which was made of the file with that path and text and
+    /// of those options.
+    pub(super) fn of(
+        document: Node,
+        (path, text): (PathBuf, String),
+        files: Files<'_>,
+        overrides: Vec<String>,
+    ) -> Result<Self, ConfigError> {
+        let shown = path.display().to_string();
+        let (builder, robot, note) = read(&document, &path, files)?;
         let mut faults = Faults::default();
         for fault in builder.faults() {
             faults.push(blame(&document, fault));
         }
         if !faults.is_empty() {
-            return Err(faults.into_error(whole(&source.path)));
+            return Err(faults.into_error(whole(&shown)));
         }
         let problem = builder.build().map_err(|error| blame(&document, error))?;
         let long_way = long_way::notes(&problem, |key| document.locate(key).to_string());
@@ -105,14 +133,21 @@ impl ProblemFile {
         Ok(Self {
             notes: notes.chain(long_way).collect(),
             end_effector: robot.end_effector(),
+            bodies: robot.changed().to_vec(),
+            spacecraft: robot.spacecraft().cloned(),
             repairs: robot.changes,
             problem,
-            path: source.path,
-            text: source.text,
-            overrides: overrides.flags(),
+            path: shown,
+            text,
+            overrides,
             robot: robot.file,
             document,
         })
+    }
+
+    /// All values, each with its place.
+    pub(super) fn document(&self) -> &Node {
+        &self.document
     }
 
     /// Where a key (`limits.joint_velocity[1]`) is given, or the nearest table around it.
@@ -211,7 +246,7 @@ fn read(
     if let Some(item) = root.get("solver") {
         let origin = match files {
             Files::Kept(_) => Origin::Kept,
-            Files::Disk | Files::Shipped => Origin::CommandLine,
+            Files::Disk | Files::Shipped | Files::Held(_) => Origin::CommandLine,
         };
         tables::solver(item, &mut problem.solver, origin)?;
     }

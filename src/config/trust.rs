@@ -16,6 +16,11 @@ pub fn trust_options() {
     TRUSTED.store(true, Ordering::Relaxed);
 }
 
+/// Whether they may.
+pub fn trusts_options() -> bool {
+    TRUSTED.load(Ordering::Relaxed)
+}
+
 /// Where the values of a document come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Origin {
@@ -31,7 +36,7 @@ impl Origin {
         // Options of the command line stand on no line.
         let own = self == Self::CommandLine && item.node.place.line.is_none();
         match reach {
-            Some(reach) if !own && !TRUSTED.load(Ordering::Relaxed) => Err(item.error(
+            Some(reach) if !own && !trusts_options() => Err(item.error(
                 format!("{}, which {reach}", item.node.describe()),
                 "no such option in a file; --trust-options allows it, or give it by --set",
             )),

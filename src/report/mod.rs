@@ -6,6 +6,7 @@
 //! describes the format.
 
 mod base_motion;
+mod batch;
 mod comparison;
 mod comparison_figure;
 mod file_set;
@@ -24,6 +25,7 @@ mod simulation;
 mod summary;
 mod verification;
 
+pub use batch::BatchReport;
 pub use comparison::{ComparisonReport, ComparisonRow};
 pub use comparison_figure::comparison_figure;
 pub use file_set::{FileSet, settled};

@@ -6,6 +6,7 @@
 mod again;
 mod build;
 mod csv;
+pub mod dataset;
 mod json;
 pub(crate) mod number;
 mod provenance;

@@ -1,7 +1,8 @@
-//! Many plans for one question: one task by every planner, over its trade-off, from many starts; one plan
-//! beside the motion without planning.
+//! Many plans for one question: one task by every planner, over its trade-off, from many starts; many
+//! tasks side by side; one plan beside the motion without planning.
 
 mod baselines;
+pub mod batch;
 mod comparison;
 pub mod pareto;
 pub mod search;

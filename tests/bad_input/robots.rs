@@ -107,7 +107,7 @@ fn joints_that_make_no_robot() {
 }
 
 #[test]
-fn locked_joints_and_end_effectors_that_are_not_there() {
+fn locked_joints_end_effectors_and_bodies_that_are_not_there() {
     for (robot, expected) in [
         (
             "{ file = \"robot.toml\", lock = { wrist = 0.0 } }",
@@ -124,6 +124,30 @@ fn locked_joints_and_end_effectors_that_are_not_there() {
         (
             "{ file = \"robot.toml\", end_effector = \"tool0\" }",
             "robot.end_effector: \"tool0\"; expected a body or joint of the robot: base, upper_arm, forearm",
+        ),
+        (
+            "{ file = \"robot.toml\", bodies = { forarm = { mass = 1.0 } } }",
+            "robot.bodies.forarm: unknown key; did you mean 'forearm'?",
+        ),
+        (
+            "{ file = \"robot.toml\", bodies = { forearm = {} } }",
+            "robot.bodies.forearm: an empty table; expected mass, com or inertia",
+        ),
+        (
+            "{ file = \"robot.toml\", bodies = { forearm = { mass = 0 } } }",
+            "robot.bodies.forearm.mass: 0; expected a finite mass above zero, kg",
+        ),
+        (
+            "{ file = \"robot.toml\", bodies = { forearm = { weight = 1 } } }",
+            "robot.bodies.forearm.weight: unknown key; expected one of mass, com, inertia",
+        ),
+        (
+            "{ file = \"robot.toml\", bodies = { forearm = { com = [0, 0, 1e12] } } }",
+            "robot.bodies.forearm.com: a mass centre with a coordinate of 1e12 m, expected at most 1e9 m",
+        ),
+        (
+            "{ file = \"robot.toml\", bodies = { forearm = { inertia = [1.0, 1.0, 3.0] } } }",
+            "robot.bodies.forearm.inertia: inertia breaks the triangle inequality: principal moments 1.000000e0, 1.000000e0, 3.000000e0 kg m², the largest may not exceed the sum of the others; robot.repair = \"inertia\" (or --repair) takes the nearest that a body can have",
         ),
         (
             "{ lock = {} }",

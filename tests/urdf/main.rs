@@ -4,6 +4,7 @@
 mod program;
 
 mod as_written;
+mod bodies;
 mod collisions;
 mod exported;
 mod faults;

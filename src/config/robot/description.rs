@@ -1,5 +1,6 @@
 //! A robot as described, before it becomes a model: bodies can be welded together, joints locked.
 
+use super::bodies::Bodies;
 use crate::config::faults::Faults;
 use crate::config::figures::Unusable;
 use crate::config::{ConfigError, Place};
@@ -66,6 +67,8 @@ pub(super) struct Description {
     /// Mass properties that cannot be used, by their bodies; these are massless until
     /// [`Description::settle`].
     pub unusable: Vec<(String, Unusable)>,
+    /// Mass properties of the bodies that `robot.bodies` changes, in their own frames.
+    pub changed: Vec<(String, Inertia)>,
     /// Whether the root link is but a frame: what is fixed to it is the base then.
     pub root_is_frame: bool,
     /// Where a robot none of whose links says its mass is described.
@@ -84,8 +87,21 @@ impl Description {
             collisions: Vec::new(),
             faults: Faults::default(),
             unusable: Vec::new(),
+            changed: Vec::new(),
             root_is_frame: false,
             kinematic: None,
+        }
+    }
+
+    /// Keeps the mass properties that a body went in with where `bodies` change it.
+    pub(super) fn change(
+        &mut self,
+        name: &str,
+        bodies: &Bodies,
+        inertia: &Result<Inertia, Unusable>,
+    ) {
+        if let (true, Ok(inertia)) = (bodies.has(name), inertia) {
+            self.changed.push((name.into(), inertia.clone()));
         }
     }
 

@@ -1,9 +1,11 @@
 //! The robot file in TOML; docs/robot-file.md describes it.
 
 use super::MOST_JOINTS;
+use super::bodies::Bodies;
 use super::description::{Description, Entry};
 use crate::config::ConfigError;
 use crate::config::document::{Node, quoted};
+use crate::config::figures::Figures;
 use crate::config::inertia;
 use crate::config::item::{Item, Section};
 use crate::config::values::joint_range;
@@ -11,8 +13,12 @@ use crate::dynamics::{Body, Inertia, Joint, JointKind, JointLimits, MOST_LENGTH,
 use nalgebra::{Unit, Vector3};
 use std::sync::Arc;
 
-/// Reads a robot; `source` is the name of its file in messages.
-pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigError> {
+/// Reads a robot, its bodies changed as `bodies` say; `source` is the name of its file in messages.
+pub(super) fn read(
+    source: &Arc<str>,
+    text: &str,
+    bodies: &Bodies,
+) -> Result<Description, ConfigError> {
     let document = Node::parse(source, text)?;
     let root =
         Item::root(&document).section(&["schema", "name", "base", "joints", "end_effector"])?;
@@ -24,7 +30,7 @@ pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigE
         inertia: Inertia::massless(),
     };
     let mut robot = Description::new(name, frame);
-    robot.base = body(&base.section(&BODY)?, "base", &mut robot)?;
+    robot.base = body(&base.section(&BODY)?, ("base", bodies), &mut robot)?;
     let joints = root.require("joints", "one [[joints]] table a joint")?;
     let elements = joints.as_elements().filter(|elements| !elements.is_empty());
     let elements = elements.ok_or_else(|| joints.unexpected("one [[joints]] table a joint"))?;
@@ -32,7 +38,7 @@ pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigE
         return Err(joints.unexpected(format!("at most {MOST_JOINTS} joints")));
     }
     for item in elements {
-        let joint = joint(&item, &mut robot)?;
+        let joint = joint(&item, bodies, &mut robot)?;
         let place = item.node.place.clone();
         robot.joints.push(Entry::new(joint, place));
     }
@@ -49,7 +55,7 @@ pub(super) fn read(source: &Arc<str>, text: &str) -> Result<Description, ConfigE
 
 const BODY: [&str; 4] = ["name", "mass", "com", "inertia"];
 
-fn joint(item: &Item<'_>, robot: &mut Description) -> Result<Joint, ConfigError> {
+fn joint(item: &Item<'_>, bodies: &Bodies, robot: &mut Description) -> Result<Joint, ConfigError> {
     let section = item.section(&["name", "type", "parent", "origin", "axis", "limits", "body"])?;
     let name = section.require("name", "a string")?;
     let name = unused(name, name.text("a string")?, robot)?;
@@ -67,7 +73,8 @@ fn joint(item: &Item<'_>, robot: &mut Description) -> Result<Joint, ConfigError>
     let expected = "a table with mass, com and inertia";
     let body_item = section.require("body", expected)?;
     let body_section = body_item.section(&BODY)?;
-    let body = body(&body_section, &format!("{name}_link"), robot)?;
+    let default_name = format!("{name}_link");
+    let body = body(&body_section, (&default_name, bodies), robot)?;
     unused(
         body_section.get("name").unwrap_or(body_item),
         &body.name,
@@ -110,14 +117,17 @@ fn carrier(item: &Item<'_>, robot: &Description) -> Result<Option<usize>, Config
 /// A body; massless, and among those of `robot` to be settled, where no body is like it.
 fn body(
     section: &Section<'_>,
-    default_name: &str,
+    (default_name, bodies): (&str, &Bodies),
     robot: &mut Description,
 ) -> Result<Body, ConfigError> {
     let name = match section.get("name") {
         Some(item) => item.text("a string")?,
         None => default_name,
     };
-    let inertia = inertia::read_body(section)?.unwrap_or_else(|unusable| {
+    let change = |figures: &mut Figures| bodies.change(name, figures);
+    let inertia = inertia::read_body(section, change)?;
+    robot.change(name, bodies, &inertia);
+    let inertia = inertia.unwrap_or_else(|unusable| {
         robot.unusable.push((name.into(), unusable));
         Inertia::massless()
     });

@@ -1,5 +1,6 @@
 //! The robot: read from its own file, some joints locked, an end effector chosen.
 
+mod bodies;
 mod description;
 mod file;
 mod model;
@@ -14,6 +15,7 @@ use super::item::{Item, hint};
 use super::{ConfigError, Place};
 use crate::dynamics::{Inertia, Placement};
 use crate::problem::{Problem, Shape};
+use bodies::Bodies;
 use description::Description;
 pub(super) use outline::{Outline, OutlineJoint};
 use repair::Repair;
@@ -36,8 +38,8 @@ pub(super) struct Robot {
     description: Description,
     /// What of it may be changed.
     repair: Repair,
-    /// Whether a spacecraft is attached.
-    loaded: bool,
+    /// The spacecraft that is attached.
+    spacecraft: Option<Inertia>,
     /// What was changed, a line each; known once it is a model.
     pub changes: Vec<String>,
     /// Its file.
@@ -48,7 +50,7 @@ impl Robot {
     /// Attaches a spacecraft rigidly to the base, given in the frame of the root link.
     pub(super) fn attach(&mut self, spacecraft: &Inertia) {
         self.description.add(spacecraft, None);
-        self.loaded = true;
+        self.spacecraft = Some(spacecraft.clone());
     }
 
     /// The joint whose body is or carries the body `name` (`None` for the base), and the pose of
@@ -77,6 +79,17 @@ impl Robot {
         self.description.body_names().collect()
     }
 
+    /// Mass properties of the bodies that `robot.bodies` changes, each in its own frame, as they
+    /// went into the model.
+    pub(super) fn changed(&self) -> &[(String, Inertia)] {
+        &self.description.changed
+    }
+
+    /// Mass properties of the spacecraft that is attached, in the frame of the root link.
+    pub(super) fn spacecraft(&self) -> Option<&Inertia> {
+        self.spacecraft.as_ref()
+    }
+
     /// Name of the body at whose frame the end effector is, with an offset where there is one.
     pub(super) fn end_effector(&self) -> Option<String> {
         self.description.end_effector_name()
@@ -103,21 +116,33 @@ pub(super) fn read(
             key: item.key.clone(),
             description,
             repair,
-            loaded: false,
+            spacecraft: None,
             changes: Vec::new(),
             file,
         }
     };
     if item.as_entries().is_none() {
-        let loaded = load(item, item.text(EXPECTED)?, folder, files)?;
+        let loaded = load(
+            item,
+            (item.text(EXPECTED)?, &Bodies::default()),
+            folder,
+            files,
+        )?;
         few_enough(item, &loaded.0)?;
         return Ok(robot(item, Repair::default(), loaded));
     }
-    let known = [&["file", "lock", "end_effector"][..], &Repair::KEYS].concat();
+    let known = [
+        &["file", "lock", "end_effector", "bodies"][..],
+        &Repair::KEYS,
+    ]
+    .concat();
     let section = item.section(&known)?;
     let repair = Repair::read(&section)?;
     let path = section.require("file", "the path of a robot file")?;
-    let (mut description, file) = load(path, path.text("a path")?, folder, files)?;
+    let bodies = section.get("bodies").map(Bodies::read).transpose()?;
+    let bodies = bodies.unwrap_or_default();
+    let (mut description, file) = load(path, (path.text("a path")?, &bodies), folder, files)?;
+    bodies.check(&description.body_names().collect::<Vec<_>>())?;
     few_enough(path, &description)?;
     if let Some(item) = section.get("end_effector") {
         let name = item.text("the name of a body or joint")?;
@@ -173,7 +198,7 @@ fn few_enough(item: &Item<'_>, robot: &Description) -> Result<(), ConfigError> {
 
 fn load(
     item: &Item<'_>,
-    path: &str,
+    (path, bodies): (&str, &Bodies),
     folder: &Path,
     files: &Files<'_>,
 ) -> Result<(Description, RobotFile), ConfigError> {
@@ -196,9 +221,9 @@ fn load(
     let source = path.as_str().into();
     let description = if is_urdf {
         let stem = full.file_stem().unwrap_or_default().to_string_lossy();
-        urdf::read(&source, &text, &stem)?
+        urdf::read(&source, &text, (&stem, bodies))?
     } else {
-        file::read(&source, &text)?
+        file::read(&source, &text, bodies)?
     };
     Ok((description, RobotFile { path, text }))
 }

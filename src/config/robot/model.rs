@@ -17,7 +17,9 @@ impl Robot {
         let Settled {
             faults: unphysical,
             changes,
-        } = self.description.settle(&self.repair, self.loaded);
+        } = self
+            .description
+            .settle(&self.repair, self.spacecraft.is_some());
         faults.append(unphysical);
         self.changes = changes;
         faults.keep(refuse(&self.description.joints));

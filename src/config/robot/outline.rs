@@ -1,5 +1,6 @@
 //! What a robot's file has, before anything is chosen: joints, limits, links.
 
+use super::bodies::Bodies;
 use super::description::{Description, Entry};
 use super::{is_urdf, urdf};
 use crate::config::files::Files;
@@ -64,7 +65,7 @@ impl Outline {
                 expected: EXPECTED,
             })?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let mut robot = urdf::read(&place.source, &text, &stem)?;
+        let mut robot = urdf::read(&place.source, &text, (&stem, &Bodies::default()))?;
         if !robot.faults.is_empty() {
             return Err(robot.faults.into_error(place));
         }

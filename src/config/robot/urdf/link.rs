@@ -4,6 +4,7 @@ use super::element::{Attribute, Element};
 use super::{collision, origin};
 use crate::config::faults::Faults;
 use crate::config::figures::{Figures, Unusable, last_digit};
+use crate::config::robot::bodies::Bodies;
 use crate::config::{ConfigError, Place};
 use crate::dynamics::Inertia;
 use crate::problem::Shape;
@@ -30,14 +31,18 @@ impl Link {
     }
 }
 
-/// Reads a link; `None` for one without a name, which is a fault.
-pub(super) fn read(element: &Element<'_, '_>, faults: &mut Faults) -> Option<Link> {
+/// Reads a link, changed as `bodies` say; `None` for one without a name, which is a fault.
+pub(super) fn read(
+    element: &Element<'_, '_>,
+    bodies: &Bodies,
+    faults: &mut Faults,
+) -> Option<Link> {
     let name = faults.keep(element.name("name"))?;
     let inertial = element.child("inertial");
-    let has_inertial = !matches!(inertial, Ok(None));
+    let has_inertial = !matches!(inertial, Ok(None)) || bodies.has(&name);
     let inertia = match inertial {
-        Ok(Some(inertial)) => inertia(&inertial),
-        Ok(None) => Ok(Inertia::massless()),
+        Ok(Some(inertial)) => inertia(&inertial, |figures| bodies.change(&name, figures)),
+        Ok(None) => bodies.whole(&name),
         Err(fault) => Err(Unusable::Unread(Faults::from(fault))),
     };
     let parts = element.children("collision");
@@ -50,7 +55,11 @@ pub(super) fn read(element: &Element<'_, '_>, faults: &mut Faults) -> Option<Lin
     })
 }
 
-fn inertia(element: &Element<'_, '_>) -> Result<Inertia, Unusable> {
+/// The figures of the file, with others laid over them by `change`.
+fn inertia(
+    element: &Element<'_, '_>,
+    change: impl FnOnce(&mut Figures),
+) -> Result<Inertia, Unusable> {
     let mut faults = Faults::default();
     let mass = faults.keep(mass(element));
     let pose = faults.keep(origin(element));
@@ -63,7 +72,7 @@ fn inertia(element: &Element<'_, '_>) -> Result<Inertia, Unusable> {
     let (Some(mass), Some(pose), Some((element, (own, rounding)))) = (mass, pose, figures) else {
         return Err(Unusable::Unread(faults));
     };
-    let figures = Figures {
+    let mut figures = Figures {
         place: element.place(),
         key: element.path().into(),
         mass,
@@ -71,6 +80,7 @@ fn inertia(element: &Element<'_, '_>) -> Result<Inertia, Unusable> {
         rounding,
         pose,
     };
+    change(&mut figures);
     // Judged as it stands in the file, not as turned.
     figures
         .inertia()

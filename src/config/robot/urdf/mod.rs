@@ -8,6 +8,7 @@ mod link;
 mod tree;
 mod xml;
 
+use super::bodies::Bodies;
 use super::description::{Description, Entry};
 use crate::config::ConfigError;
 use crate::config::faults::Faults;
@@ -22,13 +23,17 @@ use std::sync::Arc;
 use tree::Tree;
 use xml::RUN_XACRO;
 
-/// Reads a robot; `source` is the name of its file in messages, `name` the robot's unless it has
-/// one.
+/// Reads a robot, its bodies changed as `bodies` say; `file` is the name of its file in messages,
+/// `name` the robot's unless it has one.
 ///
 /// # Errors
 /// All that keeps the file from being a tree of links. What else is wrong with it stays in the
 /// description, for it may not matter: joints can be locked, the root link replaced.
-pub(super) fn read(file: &Arc<str>, text: &str, name: &str) -> Result<Description, ConfigError> {
+pub(super) fn read(
+    file: &Arc<str>,
+    text: &str,
+    (name, bodies): (&str, &Bodies),
+) -> Result<Description, ConfigError> {
     let text = xml::strict(text);
     let source = Source::new(file, &text);
     bounds::check(&source, &text)?;
@@ -41,7 +46,9 @@ pub(super) fn read(file: &Arc<str>, text: &str, name: &str) -> Result<Descriptio
     refuse_xacro(&source, root)?;
     let tops = |tag| element::children(root, tag).map(|node| Element::top(&source, node));
     let mut faults = Faults::default();
-    let links: Vec<_> = tops("link").map(|e| link::read(&e, &mut faults)).collect();
+    let links: Vec<_> = tops("link")
+        .map(|e| link::read(&e, bodies, &mut faults))
+        .collect();
     let joints: Vec<_> = tops("joint")
         .map(|e| joint::read(&e, &mut faults))
         .collect();
@@ -62,7 +69,7 @@ pub(super) fn read(file: &Arc<str>, text: &str, name: &str) -> Result<Descriptio
     let given = root.attribute("name").map(str::trim);
     let name = given.filter(|name| !name.is_empty()).unwrap_or(name);
     let kinematic = !links.iter().any(|link| link.has_inertial);
-    let mut description = assemble(name, links, joints, &tree);
+    let mut description = assemble(name, (links, bodies), joints, &tree);
     description.faults = faults;
     description.kinematic = kinematic.then(|| robot.place());
     Ok(description)
@@ -118,13 +125,23 @@ fn origin(element: &Element<'_, '_>) -> Result<Placement, ConfigError> {
 }
 
 /// The description: joints that move, the links behind fixed ones part of what carries them.
-fn assemble(name: &str, links: Vec<Link>, joints: Vec<Joint>, tree: &Tree) -> Description {
+fn assemble(
+    name: &str,
+    (links, bodies): (Vec<Link>, &Bodies),
+    joints: Vec<Joint>,
+    tree: &Tree,
+) -> Description {
     let order = tree.depth_first();
     let collisions = links.iter().filter(|link| !link.collisions.is_empty());
     let collisions: Vec<_> = collisions
         .map(|link| (link.name.clone(), link.collisions.clone()))
         .collect();
     let root_is_frame = links[tree.root].is_frame();
+    let changed: Vec<_> = links
+        .iter()
+        .filter(|link| bodies.has(&link.name))
+        .filter_map(|link| Some((link.name.clone(), link.inertia.as_ref().ok()?.clone())))
+        .collect();
     let mut unusable = Vec::new();
     let mut bodies: Vec<Option<Body>> = links
         .into_iter()
@@ -184,6 +201,7 @@ fn assemble(name: &str, links: Vec<Link>, joints: Vec<Joint>, tree: &Tree) -> De
     let names: HashSet<&str> = robot.body_names().collect();
     unusable.retain(|(name, _)| names.contains(name.as_str()));
     robot.unusable = unusable;
+    robot.changed = changed;
     robot
 }
 
