@@ -14,7 +14,8 @@ fn what_init_writes_is_planned_and_spares_the_base() {
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run:?}");
     let line = "straight-line base motion: (15.45299, -6.11540, -8.88091)°";
     assert!(run.stdout.contains(line), "{}", run.stdout);
-    let run = folder.run(&["plan", "my/arm/problem.toml", "--out", "o"]);
+    // Progress is for slow machines.
+    let run = folder.run(&["plan", "my/arm/problem.toml", "--out", "o", "--quiet"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run:?}");
     let solution: Value = serde_json::from_str(&folder.read("o/solution.json")).unwrap();
     let turned = solution["metrics"]["final_base_attitude"].as_f64().unwrap();
@@ -67,7 +68,7 @@ fn the_goal_of_the_starter_can_be_the_tool_s() {
     });
     let lines: Vec<&str> = lines.collect();
     folder.write("s/problem.toml", &lines.join("\n"));
-    let run = folder.run(&["plan", "s/problem.toml", "--out", "o"]);
+    let run = folder.run(&["plan", "s/problem.toml", "--out", "o", "--quiet"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run:?}");
 }
 
