@@ -235,7 +235,7 @@ impl BatchReport {
                 unit => format!("{name}, {unit}"),
             };
             let values = distribution.quantiles.iter().chain([&distribution.mean]);
-            let values = values.map(|value| digits(factor * value, 4, 2));
+            let values = values.map(|value| digits(factor * value, 0, 4));
             sheet.row(std::iter::once(label).chain(values).collect());
         }
         sheet.markdown()
@@ -278,7 +278,7 @@ impl Distribution {
         let bar = |count: &usize| LEVELS[(count * 8).div_ceil(most)];
         let shown = SHOWN.iter().find(|(column, ..)| *column == self.column);
         let &(_, name, unit, factor) = shown.expect("one of them");
-        let [first, .., last] = self.quantiles.map(|value| digits(factor * value, 4, 2));
+        let [first, .., last] = self.quantiles.map(|value| digits(factor * value, 0, 4));
         let bars: String = self.histogram.iter().map(bar).collect();
         format!("\n  {name}: {first}{unit} │{bars}│ {last}{unit}\n")
     }

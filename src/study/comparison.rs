@@ -75,13 +75,7 @@ impl Comparison {
                     })
                 }
                 (Ok(task), _) => Planner::new().plan_by(method, task, None, &mut |&event| {
-                    let (candidate, of) = (1, 1);
-                    let event = SearchEvent::Refining {
-                        candidate,
-                        of,
-                        event,
-                    };
-                    monitor(method, &event)
+                    monitor(method, &SearchEvent::of_plan(event))
                 }),
                 (Err(error), _) => Err(error.clone().into()),
             };

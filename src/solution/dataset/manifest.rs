@@ -6,8 +6,9 @@ use crate::nlp::ipopt;
 use crate::solution::provenance::fingerprint;
 use crate::solution::{Build, TextFile};
 use serde::{Deserialize, Serialize};
-use std::fs::File;
+use std::fs::{File, Permissions};
 use std::io::{ErrorKind, Write};
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
 /// What the rows of a data set follow from.
@@ -103,6 +104,7 @@ impl Manifest {
         let put = || {
             let mut file = tempfile::Builder::new()
                 .prefix(".batch-")
+                .permissions(Permissions::from_mode(0o666))
                 .tempfile_in(folder)?;
             file.write_all(self.json().as_bytes())?;
             file.as_file().sync_all()?;

@@ -39,6 +39,8 @@ pub struct ParetoFront<'a> {
     search: Option<Search>,
     deadline: Deadline,
     points: Vec<ParetoPoint>,
+    /// Whether the monitor stopped a plan.
+    stopped: bool,
 }
 
 /// Relative gain for which a point is planned again from a neighbour's motion.
@@ -55,6 +57,7 @@ impl<'a> ParetoFront<'a> {
             search: None,
             deadline: Deadline::after(None),
             points: Vec::new(),
+            stopped: false,
         }
     }
 
@@ -75,6 +78,11 @@ impl<'a> ParetoFront<'a> {
         }
     }
 
+    /// Whether the monitor stopped a plan, be it one that was to replace a point and did not.
+    pub fn was_stopped(&self) -> bool {
+        self.stopped
+    }
+
     /// The points found so far, in the order of their factors.
     pub fn points(&self) -> &[ParetoPoint] {
         &self.points
@@ -93,9 +101,8 @@ impl<'a> ParetoFront<'a> {
             let from = self.points.len().checked_sub(1);
             let (search, left) = (self.search.clone(), factors.len() - k);
             let point = self.plan((factor, from), (search, left), monitor)?;
-            let stopped = point.plan.status == Status::Interrupted;
             self.points.push(point);
-            if stopped {
+            if self.stopped {
                 return Ok(());
             }
         }
@@ -176,8 +183,7 @@ impl<'a> ParetoFront<'a> {
 
     /// Whether the monitor stopped a plan, or the time is over.
     fn is_over(&self) -> bool {
-        let stopped = |point: &ParetoPoint| point.plan.status == Status::Interrupted;
-        self.deadline.has_passed() || self.points.iter().any(stopped)
+        self.stopped || self.deadline.has_passed()
     }
 
     /// The point of a factor, from the motion of another point, by a search where there is one, in an
@@ -205,15 +211,10 @@ impl<'a> ParetoFront<'a> {
             None => self
                 .planner
                 .plan_with(&problem, start.as_ref(), &mut |&event| {
-                    let (candidate, of) = (1, 1);
-                    let event = SearchEvent::Refining {
-                        candidate,
-                        of,
-                        event,
-                    };
-                    monitor(factor, &event)
+                    monitor(factor, &SearchEvent::of_plan(event))
                 })?,
         };
+        self.stopped |= plan.status == Status::Interrupted;
         let terms = cost_terms(self.problem, &plan.discretization);
         Ok(ParetoPoint {
             factor,

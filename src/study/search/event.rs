@@ -25,3 +25,14 @@ pub enum SearchEvent<'a> {
         event: Event<'a>,
     },
 }
+
+impl<'a> SearchEvent<'a> {
+    /// A step of a plan that no search came before.
+    pub(crate) fn of_plan(event: Event<'a>) -> Self {
+        Self::Refining {
+            candidate: 1,
+            of: 1,
+            event,
+        }
+    }
+}
