@@ -3,12 +3,13 @@
 //! After the first mesh, switches and arcs on bounds are looked for (`switches`); the next mesh has a
 //! free breakpoint at each switch, controls fixed on their bounds in the arcs, and ends without a bend
 //! where a control that is free meets an arc on a bound. Degrees follow from the decay of Legendre
-//! coefficients (`degrees`). Where no structure is found, or a solve with it fails, the paper's law
-//! goes on.
+//! coefficients (`degrees`). A control that rings (`ringing`) shows no switches. Where no structure is
+//! found, or a solve with it fails, the paper's law goes on.
 //!
 //! Derived in docs/algorithms.md#law-of-structure.
 
 mod degrees;
+mod ringing;
 mod switches;
 
 use super::adaptive;

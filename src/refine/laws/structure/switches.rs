@@ -1,6 +1,7 @@
 //! Where controls switch: from their values at the points, and from jumps that the mesh is too coarse
 //! for.
 
+use super::ringing;
 use crate::ocp::Interval;
 use crate::refine::{Assessment, Facts};
 use crate::transcription::Discretization;
@@ -11,8 +12,6 @@ const NEAR: f64 = 0.02;
 const LEAST_RUN: usize = 2;
 /// Most points in a row between two arcs on different bounds that are one switch.
 const MOST_BETWEEN: usize = 2;
-/// Segments of a run in which a control that rings can be told.
-const RINGING: usize = 4;
 /// Part of their windows within which switches are one.
 const SAME: f64 = 0.25;
 /// Points of an arc inside after which a control that has left a bound has settled.
@@ -68,7 +67,7 @@ pub(super) fn find(assessment: &Assessment<'_>, facts: &Facts<'_>) -> Found {
     let mut layers = Found::default();
     for signal in signals(assessment.solution, facts) {
         let runs = runs(&signal);
-        if rings(assessment.solution, &signal, &runs) {
+        if any_rings(assessment.solution, &signal, &runs) {
             return Found::default();
         }
         of_values(assessment.solution, &signal, &runs, &mut found);
@@ -92,35 +91,16 @@ pub(super) fn find(assessment: &Assessment<'_>, facts: &Facts<'_>) -> Found {
     found
 }
 
-/// Whether `signal` turns round in a run inside at least once a segment: it follows the mesh, not the
-/// problem, as where nothing depends on it, and its switches tell nothing.
-fn rings(solution: &Discretization, signal: &Signal, runs: &[Run]) -> bool {
+/// Whether `signal` rings in one of its `runs` inside.
+fn any_rings(solution: &Discretization, signal: &Signal, runs: &[Run]) -> bool {
     let near = NEAR * signal.range();
     let mesh = &solution.mesh;
     let segment = |k: usize| (0..mesh.segments()).rfind(|&s| mesh.start(s) <= k);
     runs.iter().filter(|run| run.side == 0).any(|run| {
         let spans = segment(run.last).zip(segment(run.first));
         let segments = spans.map_or(0, |(last, first)| last - first + 1);
-        segments >= RINGING && turns(&signal.values[run.first..=run.last], near) >= segments
+        ringing::rings(&signal.values[run.first..=run.last], segments, near)
     })
-}
-
-/// How often `values` turn round by more than `near`.
-fn turns(values: &[f64], near: f64) -> usize {
-    let mut extreme = values[0];
-    let mut direction = 0.0;
-    let mut count = 0;
-    for &value in values {
-        let way = value - extreme;
-        if direction * way > 0.0 {
-            extreme = value;
-        } else if way.abs() > near {
-            count += usize::from(direction != 0.0);
-            direction = way.signum();
-            extreme = value;
-        }
-    }
-    count
 }
 
 /// A control or a row with its bounds and its values at the points.
@@ -438,16 +418,4 @@ fn extrapolated(solution: &Discretization, i: usize, at_end: bool) -> Option<(f6
     let fit = matrix.clone().svd(true, true).solve(&values, 1e-12).ok()?;
     let rest = (&matrix * &fit - &values).amax();
     Some((fit[0], fit[1] / size, rest))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::turns;
-
-    #[test]
-    fn turns_are_counted_where_they_are_larger_than_noise() {
-        assert_eq!(turns(&[0.0, 1.0, 0.95, 2.0, 0.0, 0.05, 3.0], 0.1), 2);
-        assert_eq!(turns(&[1.0, 0.0, 1.0, 0.0], 0.1), 2);
-        assert_eq!(turns(&[1.0, 1.01, 1.0, 1.01], 0.1), 0);
-    }
 }
