@@ -194,7 +194,7 @@ fn what_was_gained_is_said() {
     assert!((found.matpm.unwrap().last - straight.last).abs() < 1e-3);
     let planned = BaseMotion::planned(&plan.metrics);
     assert_eq!(Gain::of(planned, straight), Gain::Little);
-    let summary = report::summary(&problem, &plan, &[]);
+    let summary = report::summary(&problem, &plan, &found, &[]);
     assert!(summary.contains("straight line"), "{summary}");
     assert!(
         summary.contains("hardly less than along the straight joint path"),

@@ -16,6 +16,9 @@ pub struct Sparsity {
     pub curved: Vec<usize>,
     /// Outputs that are not the constant zero.
     pub active: Vec<bool>,
+    /// Whether the function asked for a value that varies, as it must to branch on one: with other
+    /// values its derivatives may have other places.
+    pub may_branch: bool,
 }
 
 impl Sparsity {
@@ -36,14 +39,16 @@ impl Sparsity {
             hessian,
             curved: (0..outputs).collect(),
             active: vec![true; outputs],
+            may_branch: false,
         }
     }
 
     /// What may be nonzero by the operations of `f`, which one evaluation at `at` records.
     ///
     /// Inputs where `used` is false are no variables, but take other values than those in `at`.
-    /// The result holds for all values of all inputs, as far as `f` does not branch on them. It may
-    /// hold more than is ever nonzero: entries that cancel are not found out.
+    /// The result holds for all values of all inputs, but where `f` [may
+    /// branch](Self::may_branch) on them. It may hold more than is ever nonzero: entries that cancel
+    /// are not found out.
     pub fn traced<F: Function>(f: &F, used: &[bool], at: &[f64]) -> Self {
         let mut scratch = f.scratch::<Trace>();
         let mut out = vec![Trace::constant(0.0); f.outputs()];
@@ -55,14 +60,15 @@ impl Sparsity {
             })
             .collect();
         f.evaluate(&inputs, &mut scratch, &mut out);
-        let operations = recording.finish();
+        let recorded = recording.finish();
         let outputs: Vec<Option<usize>> = out.iter().map(Trace::index).collect();
-        let found = Dependence::of(&operations, &outputs, at.len());
+        let found = Dependence::of(&recorded.operations, &outputs, at.len());
         Self {
             jacobian: found.first,
             hessian: found.second,
             curved: found.curved,
             active: out.iter().map(|value| !value.is_zero()).collect(),
+            may_branch: recorded.inspected,
         }
     }
 
@@ -142,6 +148,33 @@ mod tests {
         assert_eq!(found.jacobian, [vec![], vec![2], vec![], vec![1]]);
         assert_eq!((found.hessian, found.curved), (vec![], vec![]));
         assert_eq!(found.active, [false, true, false, true]);
+    }
+
+    function!(Branching, 2, 1, |v| {
+        [if v[0].value() > 0.0 { v[0] } else { v[1] }]
+    });
+    function!(Equal, 2, 1, |v| {
+        [if v[0] == v[1] { v[0] } else { v[1] }]
+    });
+    function!(Elementary, 2, 4, |v| {
+        let constant = S::constant(2.0);
+        let [a, b] = [v[0] + constant.value(), v[1]];
+        [
+            a.sqrt() + a.exp() * b.ln() - b.recip() / a,
+            a.sin() + b.cos() + a.tan() + a.tanh(),
+            b.asin() - b.acos() + b.atan() - b.atan2(a),
+            a.powi(3) + a.powf(0.5) - a.max(b) + a.min(b) * a.abs(),
+        ]
+    });
+
+    #[test]
+    fn who_asks_for_a_value_may_branch() {
+        for at in [[1.0, 0.5], [-1.0, 0.5]] {
+            assert!(traced(&Branching, &at).may_branch);
+            assert!(traced(&Equal, &at).may_branch);
+        }
+        assert!(!traced(&Elementary, &[1.0, 0.5]).may_branch);
+        assert!(!Sparsity::dense(1, &[true; 2]).may_branch);
     }
 
     // x′ = u − 5 exp(−2(t − 15)²) of x, u, t: by its values no function of t but near the bump.

@@ -31,6 +31,16 @@ pub(super) enum Operation {
 struct Tape {
     id: u64,
     operations: Vec<Operation>,
+    /// Whether a recorded quantity was asked for its value.
+    inspected: bool,
+}
+
+/// What a recording found.
+#[derive(Debug, Default)]
+pub(super) struct Recorded {
+    pub operations: Vec<Operation>,
+    /// Whether a recorded quantity was asked for its value: other values may lead to other operations.
+    pub inspected: bool,
 }
 
 thread_local! {
@@ -56,6 +66,7 @@ impl Recording {
         let tape = Tape {
             id: MADE.fetch_add(1, Ordering::Relaxed),
             operations: Vec::new(),
+            inspected: false,
         };
         Self {
             outer: TAPE.with(|current| current.borrow_mut().replace(tape)),
@@ -64,9 +75,13 @@ impl Recording {
     }
 
     /// All operations since the start; the numbers made of them are of no use any more.
-    pub fn finish(self) -> Vec<Operation> {
+    pub fn finish(self) -> Recorded {
         let tape = TAPE.with(|current| current.borrow_mut().take());
-        tape.map(|tape| tape.operations).unwrap_or_default()
+        let recorded = |tape: Tape| Recorded {
+            operations: tape.operations,
+            inspected: tape.inspected,
+        };
+        tape.map(recorded).unwrap_or_default()
     }
 }
 
@@ -80,6 +95,15 @@ impl std::fmt::Debug for Tape {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "tape {} of {}", self.id, self.operations.len())
     }
+}
+
+/// Notes that the value of a recorded quantity was asked for.
+pub(super) fn inspect() {
+    TAPE.with(|current| {
+        if let Some(tape) = current.borrow_mut().as_mut() {
+            tape.inspected = true;
+        }
+    });
 }
 
 /// Appends a quantity without predecessors to this thread's tape.

@@ -1,6 +1,6 @@
 //! A number that records how it was computed, for the structure of derivatives.
 
-use super::tape::{Node, Operation, append, source};
+use super::tape::{Node, Operation, append, inspect, source};
 use super::{Scalar, Times};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -9,11 +9,11 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 ///
 /// What is made of constants alone is a constant. A product with the constant zero is that
 /// constant, a sum with it the other operand. Whether a quantity is zero by its value plays no
-/// part: only the operations do. A branch by `if` on a value is not seen; [`Scalar::max`],
-/// [`Scalar::min`] and [`Scalar::abs`] are.
+/// part: only the operations do. What an `if` on a value leaves out is not seen, but that the value
+/// was asked for is; [`Scalar::max`], [`Scalar::min`] and [`Scalar::abs`] record all that may be.
 ///
 /// A number belongs to the recording it was made in: with others it panics.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Trace {
     value: f64,
     node: Option<Node>,
@@ -41,6 +41,14 @@ impl Trace {
         self.node.map(|node| node.index)
     }
 
+    /// A function that may bend, with this value.
+    fn bent(self, value: f64) -> Self {
+        let node = self
+            .node
+            .map(|a| append([a], |[a]| Operation::Univariate(a)));
+        Self { value, node }
+    }
+
     /// Another value that is straight in this one.
     fn straight(self, value: f64) -> Self {
         Self { value, ..self }
@@ -61,16 +69,74 @@ impl Scalar for Trace {
         Self { value, node: None }
     }
 
+    /// Noted, unless it is a constant's: who asks may branch on it.
     fn value(&self) -> f64 {
+        if self.node.is_some() {
+            inspect();
+        }
         self.value
     }
 
     /// Bends, whatever `first` and `second` are.
     fn chain(self, value: f64, _first: f64, _second: f64) -> Self {
-        let node = self
-            .node
-            .map(|a| append([a], |[a]| Operation::Univariate(a)));
-        Self { value, node }
+        self.bent(value)
+    }
+
+    // The functions of all numbers again, without asking for the value.
+
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (self.bent(sin), self.bent(cos))
+    }
+
+    fn recip(self) -> Self {
+        self.bent(self.value.recip())
+    }
+
+    fn sqrt(self) -> Self {
+        self.bent(self.value.sqrt())
+    }
+
+    fn exp(self) -> Self {
+        self.bent(self.value.exp())
+    }
+
+    fn ln(self) -> Self {
+        self.bent(self.value.ln())
+    }
+
+    fn powi(self, power: i32) -> Self {
+        match power {
+            0 => Self::one(),
+            1 => self,
+            _ => self.bent(self.value.powi(power)),
+        }
+    }
+
+    fn powf(self, power: f64) -> Self {
+        if power == 0.0 {
+            return Self::one();
+        }
+        if power == 1.0 {
+            return self;
+        }
+        self.bent(self.value.powf(power))
+    }
+
+    fn tan(self) -> Self {
+        self.bent(self.value.tan())
+    }
+
+    fn asin(self) -> Self {
+        self.bent(self.value.asin())
+    }
+
+    fn atan(self) -> Self {
+        self.bent(self.value.atan())
+    }
+
+    fn tanh(self) -> Self {
+        self.bent(self.value.tanh())
     }
 
     /// Either of both.
@@ -86,11 +152,18 @@ impl Scalar for Trace {
     /// Bends in both, wherever the point is.
     fn atan2(self, x: Self) -> Self {
         let angle = self.value.atan2(x.value);
-        self.linear(x, angle).chain(angle, 0.0, 0.0)
+        self.linear(x, angle).bent(angle)
     }
 
     fn abs(self) -> Self {
         self.straight(self.value.abs())
+    }
+}
+
+impl PartialEq for Trace {
+    /// Whether the values are the same, which is noted as [`value`](Scalar::value) is.
+    fn eq(&self, other: &Self) -> bool {
+        self.value() == other.value()
     }
 }
 
@@ -141,7 +214,7 @@ impl Div for Trace {
         match (self.node, rhs.node) {
             (_, None) => self.straight(value),
             (None, Some(_)) if self.value == 0.0 => Self::zero(),
-            (None, Some(_)) => rhs.chain(value, 0.0, 0.0),
+            (None, Some(_)) => rhs.bent(value),
             (Some(a), Some(b)) => Self {
                 value,
                 node: Some(append([a, b], |[a, b]| Operation::Quotient(a, b))),
@@ -214,7 +287,7 @@ impl Zero for Trace {
 
     /// Whether it is the constant.
     fn is_zero(&self) -> bool {
-        *self == Self::zero()
+        self.node.is_none() && self.value == 0.0
     }
 }
 

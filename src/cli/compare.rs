@@ -9,7 +9,7 @@ use crate::nlp::ipopt::interrupt as stop;
 use crate::planner::{Method, Status};
 use crate::refine;
 use crate::report::{ComparisonReport, FileSet, OutputFolder, comparison_figure};
-use crate::study::Comparison;
+use crate::study::{Baselines, Comparison};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -103,7 +103,8 @@ fn add(
             Some(plan) => {
                 let own = OutputFolder::create(&own)?;
                 let optima = found.optima.as_ref().filter(|_| method == Method::ALL[0]);
-                super::plan::add(file, plan, optima, &own, set)?;
+                let baselines = Baselines::of(&file.problem, &plan.discretization);
+                super::plan::add(file, plan, &baselines, optima, &own, set)?;
             }
             None if own.is_dir() => super::plan::remove(&OutputFolder::create(&own)?, set),
             None => {}

@@ -9,6 +9,7 @@ use crate::planner::{Method, Plan, PlanError, Planner, Start, Status};
 use crate::problem::Problem;
 use crate::report::{self, FileSet, OutputFolder};
 use crate::solution::{self, Provenance};
+use crate::study::Baselines;
 use crate::study::search::{Optima, Search};
 use crate::{refine, verify};
 use clap::builder::PossibleValue;
@@ -151,10 +152,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     plan.verify(&file.problem);
 
     let mut set = FileSet::new();
-    let json = add(&file, &plan, optima.as_ref(), &folder, &mut set)?;
+    let baselines = Baselines::of(&file.problem, &plan.discretization);
+    let json = add(&file, &plan, &baselines, optima.as_ref(), &folder, &mut set)?;
     let files = set.write()?;
     let summary = || {
-        let summary = report::summary(&file.problem, &plan, &files);
+        let summary = report::summary(&file.problem, &plan, &baselines, &files);
         match &optima {
             Some(optima) => format!("{summary}\n{}", report::optima(optima)),
             None => summary,
@@ -206,6 +208,7 @@ pub(super) fn say(file: &ProblemFile) {
 pub(super) fn add(
     file: &ProblemFile,
     plan: &Plan,
+    baselines: &Baselines,
     optima: Option<&Optima>,
     folder: &OutputFolder,
     set: &mut FileSet,
@@ -224,7 +227,7 @@ pub(super) fn add(
     set.add(folder, TRAJECTORY, &csv);
     // A trajectory with values that are no numbers has nothing to show.
     if verify::check(&file.problem, &plan.discretization).is_ok() {
-        let page = report::page(&saved, &file.problem, &plan.discretization);
+        let page = report::page(&saved, &file.problem, &plan.discretization, baselines);
         set.add(folder, PAGE, &page);
     } else {
         set.without(folder, PAGE);

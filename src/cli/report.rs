@@ -4,6 +4,7 @@ use super::failure::Failure;
 use super::{Outcome, terminal};
 use crate::report::{Lines, OutputFolder, in_doubt, page};
 use crate::solution::Saved;
+use crate::study::Baselines;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -38,7 +39,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     };
     let folder = OutputFolder::create(within)?;
     let (solution, doubt) = saved.again();
-    folder.write(name, &page(&solution, problem, &saved.plan))?;
+    let baselines = Baselines::of(problem, &saved.plan);
+    folder.write(name, &page(&solution, problem, &saved.plan, &baselines))?;
     let mut lines = Lines::default();
     lines.files(&[out]);
     let (heading, outcome) = match &doubt {

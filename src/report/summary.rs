@@ -16,8 +16,9 @@ use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
 
-/// The summary of `plan`, some twenty lines; `files` are those written.
-pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
+/// The summary of `plan`, some twenty lines; `baselines` are its motion without planning, `files` those
+/// written.
+pub fn summary(problem: &Problem, plan: &Plan, baselines: &Baselines, files: &[PathBuf]) -> String {
     let mut lines = Lines::default();
     match plan.status {
         Status::Infeasible => {
@@ -31,15 +32,14 @@ pub fn summary(problem: &Problem, plan: &Plan, files: &[PathBuf]) -> String {
             format!("{} s", digits(plan.discretization.duration, 6, 3)),
         );
     }
-    let baselines = Baselines::of(problem, &plan.discretization);
-    motion(&mut lines, &problem.robot, plan, &baselines);
+    motion(&mut lines, &problem.robot, plan, baselines);
     goals(&mut lines, problem, plan);
     if let Some(found) = &plan.verification {
         verification(&mut lines, &problem.robot, found);
     }
     if plan.status == Status::Solved && plan.method.optimises() {
         let planned = BaseMotion::planned(&plan.metrics);
-        if let Some(remark) = base_motion::remark(planned, &baselines) {
+        if let Some(remark) = base_motion::remark(planned, baselines) {
             lines.add("remark", remark);
         }
     }

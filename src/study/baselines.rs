@@ -70,19 +70,21 @@ impl Gain {
 }
 
 /// The base's motion between the ends of a plan without planning.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Baselines {
     /// Along the straight joint path.
     pub straight: Option<BaseMotion>,
     /// By MATPM.
     pub matpm: Option<BaseMotion>,
+    /// The motion along the straight joint path, at [`STEPS`](Self::STEPS) even times more than one.
+    pub straight_motion: Option<Trajectory>,
 }
 
-/// Times at which the straight path is looked at.
-const TIMES: usize = 120;
-
 impl Baselines {
+    /// Even steps at which the straight path is looked at.
+    pub const STEPS: usize = 120;
+
     /// Between where `plan` for `problem` begins and ends; nothing where its task is not from rest to
     /// rest.
     pub fn of(problem: &Problem, plan: &Discretization) -> Self {
@@ -90,23 +92,13 @@ impl Baselines {
             return Self::default();
         };
         let matpm = matpm_attitudes(&task).map(|motion| BaseMotion::of(&motion));
-        let straight = straight_motion(&task, plan.duration, TIMES);
+        let straight = straight_motion(&task, plan.duration, Self::STEPS);
         Self {
             straight: Some(BaseMotion::of(&straight)),
             matpm,
+            straight_motion: Some(straight),
         }
     }
-}
-
-/// The motion along the straight joint path to where `plan` ends, in its time, at so many even times
-/// more than one; `None` where the task is not from rest to rest.
-pub fn straight_to_end(
-    problem: &Problem,
-    plan: &Discretization,
-    times: usize,
-) -> Option<Trajectory> {
-    let task = joint_task(problem, plan)?;
-    Some(straight_motion(&task, plan.duration, times))
 }
 
 /// The task of moving the joints to where `plan` ends; `None` where the joints move at the start.

@@ -7,5 +7,5 @@ mod comparison;
 pub mod pareto;
 pub mod search;
 
-pub use baselines::{BaseMotion, Baselines, Gain, straight_to_end};
+pub use baselines::{BaseMotion, Baselines, Gain};
 pub use comparison::{Comparison, Entry};

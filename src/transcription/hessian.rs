@@ -71,8 +71,11 @@ impl Hessian {
         let mut node_slots = Vec::new();
         for k in 0..layout.points {
             for &(i, j) in &sparsity.hessian {
+                let own = layout.is_own(k, i) && layout.is_own(k, j);
                 node_slots.push(if i == time {
                     usize::MAX
+                } else if own {
+                    slots.new_slot(layout.input(k, i), layout.input(k, j))
                 } else {
                     slots.slot(layout.input(k, i), layout.input(k, j))
                 });
@@ -396,10 +399,18 @@ impl Slots {
     }
 
     fn slot(&mut self, row: usize, column: usize) -> usize {
-        *self.known.entry((row, column)).or_insert_with(|| {
-            self.rows.push(row);
-            self.columns.push(column);
-            self.rows.len() - 1
-        })
+        if let Some(&slot) = self.known.get(&(row, column)) {
+            return slot;
+        }
+        let slot = self.new_slot(row, column);
+        self.known.insert((row, column), slot);
+        slot
+    }
+
+    /// The slot of a pair that is never asked for again.
+    fn new_slot(&mut self, row: usize, column: usize) -> usize {
+        self.rows.push(row);
+        self.columns.push(column);
+        self.rows.len() - 1
     }
 }

@@ -190,6 +190,12 @@ impl Layout {
         }
     }
 
+    /// Whether no function but those of point `k` depends on its input `input`.
+    pub(super) fn is_own(&self, k: usize, input: usize) -> bool {
+        let at_end = k == 0 || self.way_points.iter().any(|point| point.node == k);
+        input < self.states + self.controls && !at_end
+    }
+
     /// Defect of state `i` at point `k`.
     pub fn defect(&self, k: usize, i: usize) -> usize {
         let passed = self.way_points.iter().rev().find(|p| p.node <= k);

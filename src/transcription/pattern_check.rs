@@ -18,7 +18,8 @@ impl Patterns {
     /// somewhere on `trajectory`; `None` where they hold.
     ///
     /// Operations are recorded at one place. A function that takes others elsewhere, by `if` on a
-    /// value, is found out here, unless it does so between the points looked at.
+    /// value, is found out here, unless it does so between the points looked at; one that never asked
+    /// for a value has no others. Derivatives that a problem brings itself are looked at in any case.
     pub fn widened<O: Ocp>(
         &self,
         ocp: &O,
@@ -61,15 +62,16 @@ fn denied_on_path<O: Ocp>(
     trajectory: &Discretization,
     time: &[bool],
 ) -> Option<Sparsity> {
+    let rounding = match node.ocp.derivatives() {
+        Some(_) => ROUNDING,
+        None if !pattern.may_branch => return None,
+        None => 0.0,
+    };
     let dense = all(node, time);
     if *pattern == dense {
         return None;
     }
     let mut derivatives = NodeDerivatives::new(node, dense.clone());
-    let rounding = match node.ocp.derivatives() {
-        Some(_) => ROUNDING,
-        None => 0.0,
-    };
     let times = trajectory.times();
     let points = trajectory.mesh.points();
     let count = points.min(POINTS);
@@ -114,7 +116,7 @@ impl<'f, F: Function> Check<'f, F> {
     /// Whether a derivative at `at` is nonzero that `pattern` does not have.
     fn denies(&self, pattern: &Sparsity, at: &[f64]) -> bool {
         let (f, dense) = (self.function, &self.dense);
-        if pattern == dense {
+        if !pattern.may_branch {
             return false;
         }
         let mut derivatives = SparseDerivatives::new(f, dense.clone());

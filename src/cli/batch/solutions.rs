@@ -6,6 +6,7 @@ use crate::config::BatchFile;
 use crate::nlp::Control;
 use crate::planner::{Method, Planner, Start};
 use crate::report::{FileSet, OutputFolder};
+use crate::study::Baselines;
 use std::path::Path;
 
 /// The rows with these keys.
@@ -48,7 +49,8 @@ pub(super) fn write(
         let folder = out.join("solutions").join(batch.key(*position));
         let folder = OutputFolder::create(&folder)?;
         let mut set = FileSet::new();
-        add(file, &plan, None, &folder, &mut set)?;
+        let baselines = Baselines::of(problem, &plan.discretization);
+        add(file, &plan, &baselines, None, &folder, &mut set)?;
         set.write()?;
     }
     Ok(())

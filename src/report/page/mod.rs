@@ -11,7 +11,7 @@ use crate::planner::{Method, Status};
 use crate::printable::printable;
 use crate::problem::Problem;
 use crate::solution::{Build, Search, Solution};
-use crate::study::{Baselines, straight_to_end};
+use crate::study::Baselines;
 use crate::system::resampled;
 use crate::transcription::Discretization;
 use charts::Panel;
@@ -24,16 +24,21 @@ const PLAYBACK: &str = include_str!("playback.js");
 
 /// Optima shown of a search; the file has all of them.
 const OPTIMA: usize = 12;
-/// Times of the playback, less one.
-const FRAMES: usize = 120;
+/// Times of the playback, less one: those of the motion it is compared with.
+const FRAMES: usize = Baselines::STEPS;
 
-/// The page of `solution`, which is `plan` for `problem`.
-pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> String {
+/// The page of `solution`, which is `plan` for `problem`; `baselines` are its motion without
+/// planning.
+pub fn page(
+    solution: &Solution,
+    problem: &Problem,
+    plan: &Discretization,
+    baselines: &Baselines,
+) -> String {
     let status = solution.status;
-    let straight = straight_to_end(problem, plan, FRAMES);
-    let baselines = Baselines::of(problem, plan);
     let in_joints = solution.method == Method::StraightLine.name();
-    let straight = straight.as_ref().filter(|_| !in_joints);
+    let straight = baselines.straight_motion.as_ref();
+    let straight = straight.filter(|_| !in_joints);
     // One point a segment: the nodes are the breakpoints.
     let even = Mesh::uniform(FRAMES, 1).map(|mesh| resampled(problem, plan, mesh));
     let title = match status {
@@ -70,7 +75,7 @@ pub fn page(solution: &Solution, problem: &Problem, plan: &Discretization) -> St
                     }
                 }
                 (playback(&scene))
-                section { h2 { "In figures" } (facts(&texts::figures(solution, problem, &baselines))) }
+                section { h2 { "In figures" } (facts(&texts::figures(solution, problem, baselines))) }
                 section {
                     h2 {
                         @if status == Status::Solved && solution.verification.is_some() { "Why the numbers can be trusted" }
