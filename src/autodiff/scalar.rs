@@ -184,7 +184,7 @@ pub trait Scalar:
 
     /// The larger one, with its derivatives; `self` where both are equal. NaN where either is.
     ///
-    /// Use it instead of `if` on values, which [`Trace`](super::Trace) does not see.
+    /// Use it instead of `if` on values: [`Trace`](super::Trace) does not see what that leaves out.
     #[inline]
     fn max(self, other: Self) -> Self {
         let own = self.value();
