@@ -1,4 +1,5 @@
-//! The largest values along the path as a cost, presets of weights, and what planning gained.
+//! The largest values along the path as a cost, presets of weights, what planning gained and what limits
+//! cost.
 
 mod problems;
 
@@ -6,10 +7,10 @@ use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Method, Plan, Planner, Start, Status, plan};
-use ffsm_ipopt::problem::{CostId, Preset, Problem, Sizes};
+use ffsm_ipopt::problem::{CostId, LimitId, Preset, Problem, Sizes};
 use ffsm_ipopt::report;
 use ffsm_ipopt::study::{BaseMotion, Baselines, Gain};
-use ffsm_ipopt::system::cost_terms;
+use ffsm_ipopt::system::{cost_terms, shadow_prices};
 use ffsm_ipopt::verify::verify;
 
 /// `table1-smooth` with a weight on the largest base angle.
@@ -200,4 +201,40 @@ fn what_was_gained_is_said() {
         summary.contains("hardly less than along the straight joint path"),
         "{summary}"
     );
+}
+
+/// Each price against the cost of the problem planned again with that limit wider and narrower.
+#[test]
+fn prices_foretell_what_wider_limits_save() {
+    let limited = |limit: LimitId, by: f64| {
+        let bounds = |size: f64| Interval::symmetric(by * size);
+        let edited = problems::smooth().edited(|problem| match limit {
+            LimitId::JointVelocity => {
+                problem.limits.joint_velocity = vec![bounds(0.028), bounds(0.056)];
+            }
+            _ => problem.limits.base_rate = vec![bounds(0.034)],
+        });
+        edited.unwrap()
+    };
+    // Bounds of states, and of a path row.
+    for limit in [LimitId::JointVelocity, LimitId::BaseRate] {
+        let problem = limited(limit, 1.0);
+        let plan = solved(&problem);
+        let prices = shadow_prices(&problem, &plan.discretization, &plan.iterate);
+        assert_eq!(prices[0].id.limit, limit);
+        let price: f64 = prices
+            .iter()
+            .filter(|found| found.id.limit == limit)
+            .map(|found| found.price)
+            .sum();
+        let cost = |by: f64| solved(&limited(limit, by)).objective;
+        let slope = (cost(0.999) - cost(1.001)) / 2e-3;
+        assert!((price - slope).abs() < 0.03 * slope, "{price:e}, {slope:e}");
+        let others = prices.iter().filter(|found| found.id.limit != limit);
+        assert!(others.map(|found| found.price).sum::<f64>() < 1e-3 * price);
+
+        let mut without = plan.iterate.clone();
+        without.multipliers.clear();
+        assert!(shadow_prices(&problem, &plan.discretization, &without).is_empty());
+    }
 }

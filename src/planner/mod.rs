@@ -14,8 +14,8 @@ mod verification;
 mod words;
 
 pub use crate::refine::Start;
-pub(crate) use collocation::led_within;
-pub use collocation::{BASE_RATE_REGULARIZATION, Planner, plan};
+pub use collocation::{BASE_RATE_REGULARIZATION, Planner, on_first_mesh, plan};
+pub(crate) use collocation::{first_mesh, led_within};
 pub use conditioning::Conditioning;
 pub use doubt::Doubt;
 pub use error::PlanError;

@@ -19,6 +19,7 @@ mod page;
 mod pareto;
 mod pareto_figure;
 mod peaks;
+mod prices;
 mod rows;
 mod sheet;
 mod simulation;

@@ -4,6 +4,7 @@ use super::base_motion;
 use super::format::{OF_RELAXED, centimetres, cost, degrees, gap, list, rotation, seconds, shares};
 use super::lines::Lines;
 use super::peaks::Peaks;
+use super::prices;
 use crate::digits::digits;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
@@ -12,6 +13,7 @@ use crate::problem::Problem;
 use crate::refine::Verdict;
 use crate::solution;
 use crate::study::{BaseMotion, Baselines};
+use crate::system::shadow_prices;
 use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;
@@ -41,6 +43,10 @@ pub fn summary(problem: &Problem, plan: &Plan, baselines: &Baselines, files: &[P
         let planned = BaseMotion::planned(&plan.metrics);
         if let Some(remark) = base_motion::remark(planned, baselines) {
             lines.add("remark", remark);
+        }
+        let prices = shadow_prices(problem, &plan.discretization, &plan.iterate);
+        if let Some(held) = prices::dearest(&prices, plan.objective) {
+            lines.add("limits", held);
         }
     }
     for warning in &plan.warnings {

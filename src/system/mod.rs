@@ -13,6 +13,7 @@
 //! | `motion`, `metrics` | a motion over time, its figures, the base angle |
 //! | `peaks` | the largest values that the cost is about |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
+//! | `shadow_prices` | what each limit costs |
 //! | `sizes` | sizes of the task, by which presets of weights are measured |
 //! | `impossible/` | what no motion can do, found before any solve |
 
@@ -37,6 +38,7 @@ mod pose_function;
 mod quintic;
 mod row_values;
 mod rows;
+mod shadow_prices;
 mod sizes;
 mod starts;
 mod straight_line;
@@ -55,6 +57,7 @@ pub use motion::{Metrics, Trajectory};
 pub use peaks::with_peaks;
 pub use row_values::cost_terms;
 pub use rows::{BoundId, Component, Measure, Row};
+pub use shadow_prices::{ShadowPrice, shadow_prices};
 pub use sizes::sizes;
 pub use starts::StartKind;
 pub use straight_line::{StraightLine, straight_line, straight_motion};

@@ -1,13 +1,13 @@
 //! The planner: a first trajectory, refinement, and a diagnosis where there is none.
 
 use super::elastic_start::led_within;
+use super::first_mesh::first_mesh;
 use super::sparsity_cache::SparsityCache;
 use super::warnings::{unbounded, warnings};
 use super::{bound_warnings, diagnosis, retarget};
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, ipopt};
-use crate::ocp::Ocp;
 use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
 use crate::problem::Problem;
 use crate::refine::{CutShort, Outcome, Refinement, Start, Verdict, midpoint_errors};
@@ -132,8 +132,7 @@ fn led<Sp: Space>(
 fn straight<Sp: Space>(problem: &Problem, system: &FreeFloating<Sp>) -> Result<Start, PlanError> {
     let path = JointPath::new(problem, &[]);
     let duration = problem.task.duration.center();
-    let fractions = system.formulation().way_point_fractions();
-    let mesh = problem.mesh.first_mesh()?.through(&fractions)?;
+    let mesh = first_mesh(problem, system)?;
     Ok(Start {
         trajectory: along(system, duration, &path, mesh),
         iterate: None,

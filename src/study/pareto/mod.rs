@@ -19,7 +19,7 @@ pub use point::ParetoPoint;
 pub use weights::{balanced, factors};
 
 use crate::nlp::{Control, Deadline};
-use crate::planner::{PlanError, Planner, Status};
+use crate::planner::{Event, Plan, PlanError, Planner, Status, on_first_mesh};
 use crate::problem::Problem;
 use crate::refine::Start;
 use crate::study::search::{Search, SearchEvent};
@@ -43,8 +43,13 @@ pub struct ParetoFront<'a> {
     stopped: bool,
 }
 
+/// Iterations on one mesh after which a plan from a neighbour's mesh and multipliers is given up: where
+/// they serve it takes fewer, and where they do not it takes hundreds, on that neighbour's many points.
+const WARM_ITERATIONS: u32 = 60;
 /// Relative gain for which a point is planned again from a neighbour's motion.
 const GAIN: f64 = 1e-6;
+/// Starts of the search at the largest factor.
+const END_STARTS: usize = 16;
 /// Passes over all points in which motions are handed to neighbours.
 const PASSES: usize = 3;
 
@@ -88,7 +93,8 @@ impl<'a> ParetoFront<'a> {
         &self.points
     }
 
-    /// Plans for every factor in turn, each from the plan before.
+    /// Plans for every factor in turn, each from the plan before; at the last one from several starts,
+    /// unless there is a search at every point.
     ///
     /// The problem is not convex, and a plan may stay with a motion that another has become better
     /// than. Where a neighbour's motion has the lower cost at a point's own factor, the point is
@@ -106,7 +112,49 @@ impl<'a> ParetoFront<'a> {
                 return Ok(());
             }
         }
+        if self.search.is_none() {
+            self.search_end(monitor)?;
+        }
         self.hand_on(monitor)
+    }
+
+    /// Searches from many starts at the largest factor, where optima are most, and follows what is
+    /// better there down to smaller factors as far as it is better there as well.
+    fn search_end(&mut self, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
+        let Some(last) = self.points.len().checked_sub(1) else {
+            return Ok(());
+        };
+        let search = Search {
+            starts: END_STARTS,
+            ..Search::default()
+        };
+        for k in (0..=last).rev() {
+            if self.is_over() {
+                break;
+            }
+            let factor = self.points[k].factor;
+            let point = match k == last {
+                // Half of the time left is for what follows.
+                true => self.plan((factor, Some(k)), (Some(search.clone()), 2), monitor)?,
+                false => self.plan((factor, Some(k + 1)), (None, k + 2), monitor)?,
+            };
+            if !self.replace(k, point) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts `point` in the place of point `k` where it is better; whether it is.
+    fn replace(&mut self, k: usize, point: ParetoPoint) -> bool {
+        let own = &self.points[k];
+        let factor = own.factor;
+        let gains = point.scalarised(factor) < own.scalarised(factor) * (1.0 - GAIN);
+        let better = point.is_solved() && (gains || !own.is_solved());
+        if better {
+            self.points[k] = point;
+        }
+        better
     }
 
     /// Up to `count` further points, one after another where solved neighbours are farthest apart, at
@@ -172,13 +220,7 @@ impl<'a> ParetoFront<'a> {
             return Ok(false);
         }
         let point = self.plan((factor, Some(neighbour)), (None, 1), monitor)?;
-        let own = &self.points[k];
-        let gains = point.scalarised(factor) < own.scalarised(factor) * (1.0 - GAIN);
-        let keep = point.is_solved() && (gains || !own.is_solved());
-        if keep {
-            self.points[k] = point;
-        }
-        Ok(keep)
+        Ok(self.replace(k, point))
     }
 
     /// Whether the monitor stopped a plan, or the time is over.
@@ -208,11 +250,9 @@ impl<'a> ParetoFront<'a> {
                 let told = &mut |event: &SearchEvent<'_>| monitor(factor, event);
                 search.run(&problem, start.as_ref(), told)?.plan
             }
-            None => self
-                .planner
-                .plan_with(&problem, start.as_ref(), &mut |&event| {
-                    monitor(factor, &SearchEvent::of_plan(event))
-                })?,
+            None => self.from_start(&problem, start, &mut |&event| {
+                monitor(factor, &SearchEvent::of_plan(event))
+            })?,
         };
         self.stopped |= plan.status == Status::Interrupted;
         let terms = cost_terms(self.problem, &plan.discretization);
@@ -222,6 +262,33 @@ impl<'a> ParetoFront<'a> {
             joints: terms.joints(),
             plan,
         })
+    }
+
+    /// Plans from `start`, and where its mesh and multipliers do not serve from its motion alone.
+    fn from_start(
+        &mut self,
+        problem: &Problem,
+        start: Option<Start>,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+    ) -> Result<Plan, PlanError> {
+        let Some(start) = start else {
+            return self.planner.plan_with(problem, None, monitor);
+        };
+        let deadline = Deadline::after(problem.solver.time_limit);
+        let few = problem.edited(|problem| {
+            let most = &mut problem.solver.max_iterations;
+            *most = (*most).min(WARM_ITERATIONS);
+        })?;
+        let warm = self.planner.plan_with(&few, Some(&start), monitor)?;
+        if warm.status != Status::NotConverged || deadline.has_passed() {
+            return Ok(warm);
+        }
+        let motion = Start {
+            trajectory: on_first_mesh(problem, &start.trajectory)?,
+            iterate: None,
+        };
+        let rest = problem.edited(|problem| problem.solver.time_limit = deadline.remaining())?;
+        self.planner.plan_with(&rest, Some(&motion), monitor)
     }
 
     /// `problem` with an even part of the time left, where that is limited, for so many points.

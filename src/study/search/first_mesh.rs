@@ -4,8 +4,7 @@ use super::optimum::{Ended, Optimum};
 use crate::collocation::Mesh;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline};
-use crate::ocp::Ocp;
-use crate::planner::{Event, Method, Plan, PlanError, Planner, Start, led_within};
+use crate::planner::{Event, Method, Plan, PlanError, Planner, Start, first_mesh, led_within};
 use crate::problem::Problem;
 use crate::refine::{self, Refinement};
 use crate::system::{FreeFloating, StartKind, Starts, along, metrics, trajectory};
@@ -34,7 +33,6 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
         given: Option<&Start>,
         seed: u64,
     ) -> Result<Self, PlanError> {
-        let fractions = system.formulation().way_point_fractions();
         let given = given.map(|start| (StartKind::Given, start.trajectory.clone()));
         let others = given.into_iter().chain(reaction_null_space(problem));
         Ok(Self {
@@ -43,7 +41,7 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
             patterns: Patterns::detect(system),
             starts: Starts::new(problem, system, seed),
             others: others.collect(),
-            mesh: problem.mesh.first_mesh()?.through(&fractions)?,
+            mesh: first_mesh(problem, system)?,
         })
     }
 
