@@ -25,5 +25,5 @@ pub(super) fn dearest(prices: &[ShadowPrice], cost: f64) -> Option<String> {
         }
     }
     let all = named.join(", ");
-    (!named.is_empty()).then(|| format!("{all}, each were it a tenth wider"))
+    (!named.is_empty()).then(|| format!("{all}, were it a tenth wider"))
 }
