@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Holds planned motion and the golden values of the tests against Pinocchio, SPART and MuJoCo from PyPI.
 #
+# A dispersion is held against replays by Pinocchio as well.
+#
 # They go to target/oracle/venv, which a second run uses again; the plans to target/oracle/out.
 #
 #     scripts/oracle.sh           one table, exit status 1 where anything differs
@@ -56,4 +58,13 @@ status=0
 [ ${#write[@]} = 0 ] || python tests/oracle/golden.py "$golden" "${write[@]}"
 python tests/oracle/golden.py "$golden" || status=1
 python tests/oracle/compare.py "${solutions[@]}" || status=1
+
+# A plan under perturbations, by random numbers of both sides.
+name=chaser-7dof-heavy
+ours() {
+  cargo run --release --locked --quiet --bin ffsm-ipopt -- "$@" || die "$name could not be dispersed"
+}
+ours plan "config/$name.toml" --quiet --out "$home/out/$name"
+ours disperse "$home/out/$name/solution.json" --quiet --samples 20000 --seed 1 --out "$home/out/$name"
+python tests/oracle/disperse.py "$home/out/$name/solution.json" "$home/out/$name/dispersion.json" || status=1
 exit $status

@@ -1,7 +1,7 @@
 //! What callers may rely on of the public types: they move between threads and can be shared.
 
 use ffsm_ipopt::collocation::MeshError;
-use ffsm_ipopt::config::{BatchFile, BatchRow, ConfigError, Place};
+use ffsm_ipopt::config::{BatchFile, BatchRow, ConfigError, Dispersion, Distribution, Place};
 use ffsm_ipopt::dynamics::space::{Planar, Spatial};
 use ffsm_ipopt::dynamics::{InertiaError, Model, ModelError, Tree};
 use ffsm_ipopt::nlp::ipopt::IpoptError;
@@ -11,6 +11,7 @@ use ffsm_ipopt::report::OutputError;
 use ffsm_ipopt::solution::dataset::{DataSet, DataSetError, Writer};
 use ffsm_ipopt::solution::{Solution, SolutionError};
 use ffsm_ipopt::study::batch::{Engine, EngineError, Record, RowPlanner};
+use ffsm_ipopt::study::dispersion::{DispersionError, Figures, Replays, Sample, Sensitivities};
 use ffsm_ipopt::study::{Comparison, pareto::ParetoPoint};
 use ffsm_ipopt::system::{CostTerms, FreeFloating, System, Trajectory};
 use ffsm_ipopt::transcription::Discretization;
@@ -35,6 +36,8 @@ fn public_types_move_between_threads_and_can_be_shared() {
     shared::<Solution>();
     shared::<(BatchFile, BatchRow, Engine, EngineError, Record, RowPlanner)>();
     shared::<(DataSet, DataSetError, Writer)>();
+    shared::<(Dispersion, Distribution, Replays, Figures, Sample)>();
+    shared::<(Sensitivities, DispersionError)>();
 }
 
 /// A chain of errors says each thing once.

@@ -10,6 +10,7 @@ use crate::simulate::SimulateError;
 use crate::solution::SolutionError;
 use crate::solution::dataset::DataSetError;
 use crate::study::batch::EngineError;
+use crate::study::dispersion::DispersionError;
 use std::path::Path;
 
 /// What keeps a command from being carried out.
@@ -23,6 +24,11 @@ pub(super) enum Failure {
     Start { path: String, cause: PlanError },
     #[error("{path}: {cause}")]
     Simulate { path: String, cause: SimulateError },
+    #[error("{path}: {cause}")]
+    Disperse {
+        path: String,
+        cause: DispersionError,
+    },
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error("{path}: {cause}")]
@@ -51,11 +57,16 @@ impl Failure {
     /// 2 where the input is to blame, else 1.
     pub(super) fn code(&self) -> u8 {
         match self {
+            Self::Disperse {
+                cause: DispersionError::Interrupted { .. },
+                ..
+            } => Outcome::Interrupted as u8,
             Self::Usage(_)
             | Self::Config(_)
             | Self::Solution(_)
             | Self::Start { .. }
-            | Self::Simulate { .. } => 2,
+            | Self::Simulate { .. }
+            | Self::Disperse { .. } => 2,
             Self::Output(OutputError::Folder { .. }) => 2,
             Self::Output(OutputError::File { .. } | OutputError::Figure { .. }) => 1,
             Self::Plan { .. } | Self::Format { .. } | Self::Terminal(_) => 1,

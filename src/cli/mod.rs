@@ -4,6 +4,7 @@ mod batch;
 mod check;
 mod compare;
 mod completions;
+mod disperse;
 mod doctor;
 mod failure;
 mod figures;
@@ -78,6 +79,7 @@ enum Command {
     Figures(figures::Arguments),
     Reproduce(reproduce::Arguments),
     Verify(verify::Arguments),
+    Disperse(disperse::Arguments),
     Report(report::Arguments),
     Simulate(simulate::Arguments),
     Init(init::Arguments),
@@ -124,6 +126,7 @@ pub fn run() -> ExitCode {
         Command::Figures(arguments) => figures::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
+        Command::Disperse(arguments) => disperse::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

@@ -9,6 +9,8 @@
 
 mod base;
 mod batch;
+mod dispersion;
+mod distribution;
 mod document;
 mod error;
 mod faults;
@@ -35,6 +37,8 @@ mod way_point;
 mod xml_text;
 
 pub use batch::{BatchFile, BatchRow, Cell, CellKind};
+pub use dispersion::{Dispersed, Dispersion, Perturbation};
+pub use distribution::Distribution;
 pub use error::{ConfigError, Place, Remedy};
 pub use fit::{Experiment, FitFile, Hypothesis, PlanSource};
 pub use overrides::Overrides;

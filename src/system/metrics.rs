@@ -88,6 +88,40 @@ pub(crate) fn metrics<Sp: Space>(
     }
 }
 
+/// A pose of the base at which [`metrics_of`] looks for its largest turn and displacement.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct WatchedPose {
+    /// Fraction of the duration.
+    pub fraction: f64,
+    /// Base attitude η.
+    pub attitude: Vec<f64>,
+    /// Base position ζ, m.
+    pub position: Vec<f64>,
+}
+
+/// The poses of the base that the figures of a plan are the largest of, in the order of time; the
+/// last is the end.
+pub fn watched_poses(problem: &Problem, plan: &Discretization) -> Vec<WatchedPose> {
+    let of = |plan: &Discretization| {
+        let motion = with_system!(&System::new(problem), system => base_motion(system, plan));
+        let poses = motion.base_attitude.into_iter().zip(motion.base_position);
+        let at = plan.mesh.node_fractions().into_iter().zip(poses);
+        at.map(|(fraction, (attitude, position))| WatchedPose {
+            fraction,
+            attitude,
+            position,
+        })
+        .collect::<Vec<_>>()
+    };
+    let mut between = fine_mesh(plan).map_or_else(|_| Vec::new(), |mesh| of(&plan.resample(mesh)));
+    between.pop();
+    let mut poses = of(plan);
+    poses.extend(between);
+    poses.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
+    poses
+}
+
 /// Figures of a planned motion for `problem`.
 pub fn metrics_of(problem: &Problem, plan: &Discretization) -> Metrics {
     with_system!(&System::new(problem), system => {

@@ -52,7 +52,9 @@ pub use goal_errors::{GoalError, goal_errors};
 pub use guess::through;
 pub use impossible::impossible;
 pub use limits::ElasticLimit;
-pub use metrics::{at_nodes, base_angles, base_displacements, finely, metrics_of};
+pub use metrics::{
+    WatchedPose, at_nodes, base_angles, base_displacements, finely, metrics_of, watched_poses,
+};
 pub use motion::{Metrics, Trajectory};
 pub use peaks::with_peaks;
 pub use row_values::cost_terms;

@@ -15,6 +15,7 @@ fn help_names_every_command() {
         "figures",
         "reproduce",
         "verify",
+        "disperse",
         "report",
         "simulate",
         "doctor",

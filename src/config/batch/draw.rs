@@ -1,54 +1,19 @@
 //! Seeded random values, each a function of the seed, the key it is for and the position of its row
 //! alone: the same whatever else is drawn, and in any order.
 
+use crate::config::distribution::{Distribution, standard_normal};
 use sha2::{Digest, Sha256};
-use std::f64::consts::TAU;
-
-/// How a number is drawn.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Distribution {
-    /// Evenly between the two.
-    Uniform([f64; 2]),
-    /// Its logarithm evenly between those of the two, both above zero.
-    LogUniform([f64; 2]),
-    /// Normal, drawn again while outside of the range.
-    Normal { mean: f64, sd: f64, range: [f64; 2] },
-}
-
-/// Least part of a normal distribution within its range: below it a typing error is more likely than
-/// a wish.
-pub(super) const LEAST_INSIDE: f64 = 0.01;
-/// Draws before a normal number is taken at the nearer end of its range; with [`LEAST_INSIDE`] none
-/// ever gets there.
-const MOST_DRAWS: u64 = 10_000;
 
 impl Distribution {
     /// The number for `key` in the row at `position`.
     pub(super) fn draw(&self, seed: u64, key: &str, position: u64) -> f64 {
-        match *self {
-            Self::Uniform([a, b]) => a + (b - a) * uniforms(seed, key, position, 0)[0],
-            Self::LogUniform([a, b]) => {
-                let part = uniforms(seed, key, position, 0)[0];
-                // Rounding may not lead out of the range.
-                (a.ln() + (b.ln() - a.ln()) * part).exp().clamp(a, b)
-            }
-            Self::Normal {
-                mean,
-                sd,
-                range: [low, high],
-            } => {
-                let draws = (0..MOST_DRAWS).map(|n| mean + sd * normal(seed, key, position, n));
-                let mut inside = draws.filter(|drawn| (low..=high).contains(drawn));
-                inside.next().unwrap_or(mean.clamp(low, high))
-            }
-        }
+        self.value(|attempt| uniforms(seed, key, position, attempt))
     }
 }
 
 /// A standard normal number, the `attempt`th for `key` in the row at `position`.
 pub(super) fn normal(seed: u64, key: &str, position: u64, attempt: u64) -> f64 {
-    let [radius, turn] = uniforms(seed, key, position, attempt);
-    (-2.0 * radius.ln()).sqrt() * (TAU * turn).cos()
+    standard_normal(uniforms(seed, key, position, attempt))
 }
 
 /// Two numbers between 0 and 1, both excluded.
@@ -63,20 +28,6 @@ fn uniforms(seed: u64, key: &str, position: u64, attempt: u64) -> [f64; 2] {
         let bytes = digest[at..at + 8].try_into().expect("eight bytes");
         ((u64::from_le_bytes(bytes) >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
     })
-}
-
-/// The part of a standard normal distribution between `low` and `high`, to some digits.
-pub(super) fn inside(low: f64, high: f64) -> f64 {
-    const STEPS: usize = 2_000;
-    const FAR: f64 = 10.0;
-    let (low, high) = (low.max(-FAR), high.min(FAR));
-    if low >= high {
-        return 0.0;
-    }
-    let step = (high - low) / STEPS as f64;
-    let density = |z: f64| (-0.5 * z * z).exp() / TAU.sqrt();
-    let middles = (0..STEPS).map(|k| low + (k as f64 + 0.5) * step);
-    middles.map(density).sum::<f64>() * step
 }
 
 /// The lower factor L of a covariance L·Lᵀ, by rows; `None` where the matrix is no covariance.
@@ -176,13 +127,6 @@ mod tests {
         let product = pairs.map(|(a, b)| (a - 0.5) * (b - 0.5)).sum::<f64>() / 20_000.0;
         // Without correlation: within four standard errors of zero.
         assert!(product.abs() < 4.0 / 12.0 / 20_000f64.sqrt(), "{product}");
-    }
-
-    #[test]
-    fn parts_of_a_normal_distribution() {
-        assert!((inside(-1.0, 1.0) - 0.682_689_492).abs() < 1e-6);
-        assert!((inside(0.0, f64::INFINITY) - 0.5).abs() < 1e-6);
-        assert!(inside(5.0, 6.0) < 1e-6);
     }
 
     #[test]

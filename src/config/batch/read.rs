@@ -1,10 +1,11 @@
 //! The tables of a batch file.
 
 use super::Cell;
-use super::draw::{Distribution, LEAST_INSIDE, cholesky, inside};
+use super::draw::cholesky;
 use super::table::Tables;
 use super::vary::{MOST_ROWS, Sweep, Values, Vary};
 use crate::config::ConfigError;
+use crate::config::distribution::{Distribution, LEAST_INSIDE, inside};
 use crate::config::document::{Value, quoted};
 use crate::config::item::{Item, Section};
 use crate::config::key_path::KeyPath;

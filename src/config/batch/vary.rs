@@ -1,8 +1,9 @@
 //! What a batch varies: keys, and where their values come from.
 
 use super::Cell;
-use super::draw::{Distribution, normal};
+use super::draw::normal;
 use crate::config::Place;
+use crate::config::distribution::Distribution;
 use crate::config::key_path::KeyPath;
 
 /// Most rows of a batch.

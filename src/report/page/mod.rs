@@ -2,6 +2,7 @@
 //! the straight joint path, every quantity with its bounds, and why the numbers can be trusted.
 
 mod charts;
+mod dispersion;
 mod scene;
 mod texts;
 
