@@ -16,10 +16,12 @@ fn signalled(signal: &str, command: &str, extra: &[&str]) -> Folder {
     use std::process::{Command, Stdio};
     use std::time::Duration;
 
-    // A mesh large enough to be at work when the signal comes.
+    // A mesh so large and tolerances so small that it is at work when the signal comes, however long
+    // that takes on a machine with other work.
     let problem = PROBLEM
         .replace("segments = 4", "segments = 4000")
-        .replace("tolerance = 1e-3", "tolerance = 1e-13");
+        .replace("tolerance = 1e-3", "tolerance = 1e-16");
+    let problem = format!("{problem}\n[solver]\ntolerance = 1e-16\n");
     let folder = Folder::new(&problem);
     let mut child = Command::new(env!("CARGO_BIN_EXE_ffsm-ipopt"))
         .args([command, "case.toml", "--out", "o"])
