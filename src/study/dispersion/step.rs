@@ -103,9 +103,9 @@ impl Step {
         let s = self.stages;
         let n = chain.links.len();
         let mut still = [BaseRate::ZERO; MOST_STAGES];
-        for i in 0..s {
+        for (i, still) in still[..s].iter_mut().enumerate() {
             let joints = &self.joints[i * n..(i + 1) * n];
-            still[i] = base_rate(chain, robots, joints, &self.harmonics[i], frames);
+            *still = base_rate(chain, robots, joints, &self.harmonics[i], frames);
         }
         let mut omega = [Vector::ZERO; MOST_STAGES];
         let mut rate = [Quaternion::of([0.0; 4]); MOST_STAGES];
@@ -122,12 +122,12 @@ impl Step {
                 rate[i] = at[i].rate(&omega[i]);
             }
             let mut change = 0.0_f64;
-            for i in 0..s {
+            for (i, at) in at[..s].iter_mut().enumerate() {
                 let next = self.sum(&bases.orientation, &rate, &self.matrix[i * s..][..s]);
-                for (next, before) in next.0.iter().zip(&at[i].0) {
+                for (next, before) in next.0.iter().zip(&at.0) {
                     change = change.max((*next - *before).amax());
                 }
-                at[i] = next;
+                *at = next;
             }
             if change <= ROUNDING {
                 solved = true;

@@ -250,7 +250,7 @@ impl<'a> ParetoFront<'a> {
                 let told = &mut |event: &SearchEvent<'_>| monitor(factor, event);
                 search.run(&problem, start.as_ref(), told)?.plan
             }
-            None => self.from_start(&problem, start, &mut |&event| {
+            None => self.plan_from(&problem, start, &mut |&event| {
                 monitor(factor, &SearchEvent::of_plan(event))
             })?,
         };
@@ -265,7 +265,7 @@ impl<'a> ParetoFront<'a> {
     }
 
     /// Plans from `start`, and where its mesh and multipliers do not serve from its motion alone.
-    fn from_start(
+    fn plan_from(
         &mut self,
         problem: &Problem,
         start: Option<Start>,
