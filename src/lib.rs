@@ -16,6 +16,7 @@ pub mod refine;
 pub mod report;
 pub mod simulate;
 pub mod solution;
+mod split_mix;
 pub mod study;
 pub mod system;
 pub mod transcription;

@@ -1,6 +1,7 @@
 //! Random numbers: one stream a run and source, so that switching one source off leaves the
 //! others as they were.
 
+use crate::split_mix::mix;
 use fastrand::Rng;
 use std::f64::consts::TAU;
 
@@ -51,14 +52,6 @@ impl Noise {
         });
         deviation * unit
     }
-}
-
-/// The finaliser of SplitMix64 (doi:10.1145/2660193.2660195): near seeds give streams far apart.
-fn mix(seed: u64) -> u64 {
-    let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

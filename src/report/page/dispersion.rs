@@ -1,6 +1,7 @@
 //! `dispersion.html`: one page that needs nothing else, with the figures of a plan under
 //! perturbations, their histograms and what they come from.
 
+use super::head::head;
 use crate::digits::digits;
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Shape, Stroke, Width};
 use crate::printable::printable;
@@ -11,7 +12,6 @@ use crate::solution::Build;
 use crate::study::dispersion::Sensitivities;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-const STYLE: &str = include_str!("page.css");
 /// Bars of sensitivity charts.
 const BARS: usize = 12;
 /// Share below which a quantity has no bar.
@@ -24,13 +24,7 @@ impl DispersionReport<'_> {
         let page = html! {
             (DOCTYPE)
             html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    meta name="generator" content={ "ffsm-ipopt " (Build::VERSION) };
-                    title { (name) " · dispersion" }
-                    style { (PreEscaped(STYLE)) }
-                }
+                (head(&format!("{name} · dispersion")))
                 body {
                     header {
                         h1 { (name) " under dispersion" }

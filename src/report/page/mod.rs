@@ -3,6 +3,7 @@
 
 mod charts;
 mod dispersion;
+mod head;
 mod scene;
 mod texts;
 
@@ -11,16 +12,16 @@ use crate::collocation::Mesh;
 use crate::planner::{Method, Status};
 use crate::printable::printable;
 use crate::problem::Problem;
-use crate::solution::{Build, Search, Solution};
+use crate::solution::{Search, Solution};
 use crate::study::Baselines;
 use crate::system::resampled;
 use crate::transcription::Discretization;
 use charts::Panel;
+use head::head;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use scene::Scene;
 use texts::Fact;
 
-const STYLE: &str = include_str!("page.css");
 const PLAYBACK: &str = include_str!("playback.js");
 
 /// Optima shown of a search; the file has all of them.
@@ -53,13 +54,7 @@ pub fn page(
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="generator" content={ "ffsm-ipopt " (Build::VERSION) };
-                title { (solution.name) " · " (status.words()) }
-                style { (PreEscaped(STYLE)) }
-            }
+            (head(&format!("{} · {}", solution.name, status.words())))
             body {
                 header {
                     h1 { (solution.name) " " span class={ "status " (status.name()) } { (status.words()) } }

@@ -3,6 +3,7 @@
 
 use super::tracking::HARMONICS;
 use crate::config::{Dispersed, Dispersion, Distribution};
+use crate::split_mix::mix;
 use sha2::{Digest, Sha256};
 
 /// Numbers of one quantity.
@@ -88,14 +89,6 @@ fn uniforms(stream: u64, index: u64, attempt: u64) -> [f64; 2] {
     let first = mix(stream ^ mix(index ^ mix(attempt)));
     [first, mix(first ^ stream.rotate_left(32))]
         .map(|bits| ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64)
-}
-
-/// The finaliser of SplitMix64 (doi:10.1145/2660193.2660195).
-fn mix(seed: u64) -> u64 {
-    let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! ([`crate::autodiff::dispatch`]). Products and sums stay apart: results are the same on every
 //! machine.
 
+use crate::largest::largest;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// Samples side by side.
@@ -49,14 +50,10 @@ impl Lanes {
         self.map(f64::sqrt)
     }
 
-    /// The largest magnitude of any sample; NaN counts for nothing.
+    /// The largest magnitude of any sample; NaN where one is.
     #[inline(always)]
     pub fn amax(self) -> f64 {
-        let mut most = [0.0_f64; LANES];
-        for (most, value) in most.iter_mut().zip(&self.0) {
-            *most = value.abs();
-        }
-        most.iter().copied().fold(0.0, f64::max)
+        largest(self.0.map(f64::abs))
     }
 
     /// Sine and cosine of an angle. Small ones, as errors of joints are, take their series, which is

@@ -10,6 +10,7 @@ use super::gauss::Gauss;
 use super::lanes::{Lanes, Quaternion, Vector};
 use super::perturbed::Perturbed;
 use super::tracking::HarmonicsAt;
+use crate::largest::raise;
 
 /// Most stages of a step.
 pub(super) const MOST_STAGES: usize = 12;
@@ -125,7 +126,7 @@ impl Step {
             for (i, at) in at[..s].iter_mut().enumerate() {
                 let next = self.sum(&bases.orientation, &rate, &self.matrix[i * s..][..s]);
                 for (next, before) in next.0.iter().zip(&at.0) {
-                    change = change.max((*next - *before).amax());
+                    raise(&mut change, (*next - *before).amax());
                 }
                 *at = next;
             }
