@@ -4,8 +4,10 @@ mod program;
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
+use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::parallel;
 use ffsm_ipopt::planner::{Plan, Planner, Status};
+use ffsm_ipopt::problem::Problem;
 use program::Folder;
 use std::fs;
 use std::num::NonZero;
@@ -52,6 +54,39 @@ fn straight_line_motion_is_the_published_one() {
     assert!(run.stdout.ends_with(expected), "{}", run.stdout);
     assert!(run.stdout.contains("link7 9 kg"), "{}", run.stdout);
     assert!(!run.stdout.contains("note:"), "{}", run.stdout);
+}
+
+/// The peak p as a cost with weight w, and as a bound b on the rotation angle: of all wb + J(b) that with
+/// b = p is the least, and equals the cost with the peak.
+#[test]
+fn the_least_peak_is_the_best_bound() {
+    let weight = 10.0;
+    let overrides = Overrides::of(&["base.attitude=\"quaternion\"".into()]).unwrap();
+    let file = ProblemFile::load("config/chaser-7dof.toml".as_ref(), &overrides).unwrap();
+    let solved = |problem: &Problem| {
+        let plan = Planner::new().plan(problem).unwrap();
+        assert_eq!(plan.status, Status::Solved);
+        plan
+    };
+    let peaked = file.problem.edited(|problem| {
+        problem.cost.peak_base_attitude = vec![weight];
+    });
+    let peaked = solved(&peaked.unwrap());
+    let peak = peaked.discretization.parameters[0];
+    let bounded = |bound: f64| {
+        let problem = file.problem.edited(|problem| {
+            problem.limits.base_attitude = vec![Interval::symmetric(bound)];
+        });
+        weight * bound + solved(&problem.unwrap()).objective
+    };
+    let at_peak = bounded(peak);
+    assert!(
+        (at_peak - peaked.objective).abs() < 1e-5 * at_peak,
+        "{at_peak}"
+    );
+    for other in [0.995, 1.005] {
+        assert!(bounded(other * peak) > at_peak);
+    }
 }
 
 #[test]

@@ -200,7 +200,9 @@ impl<Sp: Space> Search<'_, Sp> {
         if diagnosed.interrupted {
             return Ok(ended(Status::Interrupted, outcome, None));
         }
-        if let Some(diagnosis) = diagnosed.diagnosis {
+        // What time left no refinement of is not known to be needed.
+        let known = |diagnosis: &Diagnosis| diagnosis.converged || !self.deadline.has_passed();
+        if let Some(diagnosis) = diagnosed.diagnosis.filter(known) {
             outcome.trajectory = diagnosed.trajectory;
             outcome.objective = system.cost_terms(&outcome.trajectory).total();
             return Ok(ended(Status::Infeasible, outcome, Some(diagnosis)));

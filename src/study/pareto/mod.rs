@@ -43,13 +43,28 @@ pub struct ParetoFront<'a> {
     stopped: bool,
 }
 
+/// What a point begins with.
+enum Starts {
+    /// The motion of another point alone.
+    Given,
+    /// That and a few more.
+    Few,
+    /// A search, that motion among its starts.
+    Search(Search),
+}
+
 /// Iterations on one mesh after which a plan from a neighbour's mesh and multipliers is given up: where
 /// they serve it takes fewer, and where they do not it takes hundreds, on that neighbour's many points.
 const WARM_ITERATIONS: u32 = 60;
 /// Relative gain for which a point is planned again from a neighbour's motion.
 const GAIN: f64 = 1e-6;
-/// Starts of the search at the largest factor.
-const END_STARTS: usize = 16;
+/// Starts at every point: the straight path, the plan before, the path through the reaction null space,
+/// a detour, and the best of them perturbed.
+const FEW_STARTS: usize = 8;
+/// How many of what these end at are refined.
+const FEW_REFINED: usize = 2;
+/// Starts of the search at the largest factor, where optima are most.
+const END_STARTS: usize = 32;
 /// Passes over all points in which motions are handed to neighbours.
 const PASSES: usize = 3;
 
@@ -93,8 +108,8 @@ impl<'a> ParetoFront<'a> {
         &self.points
     }
 
-    /// Plans for every factor in turn, each from the plan before; at the last one from several starts,
-    /// unless there is a search at every point.
+    /// Plans for every factor in turn, each from the plan before and a few other starts; at the last one
+    /// from many, unless there is a search at every point.
     ///
     /// The problem is not convex, and a plan may stay with a motion that another has become better
     /// than. Where a neighbour's motion has the lower cost at a point's own factor, the point is
@@ -105,8 +120,8 @@ impl<'a> ParetoFront<'a> {
     pub fn sweep(&mut self, factors: &[f64], monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
         for (k, &factor) in factors.iter().enumerate() {
             let from = self.points.len().checked_sub(1);
-            let (search, left) = (self.search.clone(), factors.len() - k);
-            let point = self.plan((factor, from), (search, left), monitor)?;
+            let left = factors.len() - k;
+            let point = self.plan((factor, from), (self.starts(), left), monitor)?;
             self.points.push(point);
             if self.stopped {
                 return Ok(());
@@ -124,7 +139,7 @@ impl<'a> ParetoFront<'a> {
         let Some(last) = self.points.len().checked_sub(1) else {
             return Ok(());
         };
-        let search = Search {
+        let many = Search {
             starts: END_STARTS,
             ..Search::default()
         };
@@ -135,8 +150,12 @@ impl<'a> ParetoFront<'a> {
             let factor = self.points[k].factor;
             let point = match k == last {
                 // Half of the time left is for what follows.
-                true => self.plan((factor, Some(k)), (Some(search.clone()), 2), monitor)?,
-                false => self.plan((factor, Some(k + 1)), (None, k + 2), monitor)?,
+                true => self.plan(
+                    (factor, Some(k)),
+                    (Starts::Search(many.clone()), 2),
+                    monitor,
+                )?,
+                false => self.plan((factor, Some(k + 1)), (Starts::Given, k + 2), monitor)?,
             };
             if !self.replace(k, point) {
                 break;
@@ -175,8 +194,7 @@ impl<'a> ParetoFront<'a> {
                 break;
             };
             let factor = (self.points[k].factor * self.points[k + 1].factor).sqrt();
-            let search = self.search.clone();
-            let point = self.plan((factor, Some(k)), (search, left), monitor)?;
+            let point = self.plan((factor, Some(k)), (self.starts(), left), monitor)?;
             if gaps::is_at_an_end(&point, &self.points[k..k + 2]) {
                 closed.push(self.points[k].factor);
             }
@@ -219,7 +237,7 @@ impl<'a> ParetoFront<'a> {
         if !other.is_solved() || own.is_solved() && !better {
             return Ok(false);
         }
-        let point = self.plan((factor, Some(neighbour)), (None, 1), monitor)?;
+        let point = self.plan((factor, Some(neighbour)), (Starts::Given, 1), monitor)?;
         Ok(self.replace(k, point))
     }
 
@@ -228,12 +246,20 @@ impl<'a> ParetoFront<'a> {
         self.stopped || self.deadline.has_passed()
     }
 
-    /// The point of a factor, from the motion of another point, by a search where there is one, in an
-    /// even part of the time left for so many points.
+    /// What a point begins with that is not planned yet.
+    fn starts(&self) -> Starts {
+        match &self.search {
+            Some(search) => Starts::Search(search.clone()),
+            None => Starts::Few,
+        }
+    }
+
+    /// The point of a factor, from the motion of another point and other starts, in an even part of the
+    /// time left for so many points.
     fn plan(
         &mut self,
         (factor, from): (f64, Option<usize>),
-        (search, left): (Option<Search>, usize),
+        (starts, left): (Starts, usize),
         monitor: &mut Monitor<'_>,
     ) -> Result<ParetoPoint, PlanError> {
         let problem = self.within_share(scaled(self.problem, factor)?, left)?;
@@ -245,12 +271,18 @@ impl<'a> ParetoFront<'a> {
                 trajectory: plan.discretization.clone(),
                 iterate: Some(plan.iterate.clone()),
             });
-        let plan = match search {
-            Some(search) => {
-                let told = &mut |event: &SearchEvent<'_>| monitor(factor, event);
-                search.run(&problem, start.as_ref(), told)?.plan
+        let told = &mut |event: &SearchEvent<'_>| monitor(factor, event);
+        let plan = match starts {
+            Starts::Search(search) => search.run(&problem, start.as_ref(), told)?.plan,
+            Starts::Few => {
+                let search = Search {
+                    starts: FEW_STARTS,
+                    ..Search::default()
+                };
+                let found = search.run_refining(FEW_REFINED, &problem, start.as_ref(), told)?;
+                found.plan
             }
-            None => self.plan_from(&problem, start, &mut |&event| {
+            Starts::Given => self.plan_from(&problem, start, &mut |&event| {
                 monitor(factor, &SearchEvent::of_plan(event))
             })?,
         };

@@ -14,11 +14,13 @@
 //! | `event` | what a monitor sees |
 //! | `first_mesh` | the solve of one start |
 //! | `optimum` | what several starts ended at, counted once |
+//! | `results` | what starts that run at the same time see of each other |
 //! | `teller` | one monitor for work on several threads |
 
 mod event;
 mod first_mesh;
 mod optimum;
+mod results;
 mod teller;
 
 pub use event::SearchEvent;
@@ -30,9 +32,9 @@ use crate::planner::{Event, Plan, PlanError, Planner, Start, Status};
 use crate::problem::Problem;
 use crate::system::{StartKind, System, with_system};
 use first_mesh::FirstMesh;
-use optimum::{Ended, distinct, same};
+use optimum::{Ended, same};
+use results::Results;
 use std::num::NonZero;
-use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -112,6 +114,32 @@ impl Search {
         given: Option<&Start>,
         monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
     ) -> Result<Searched, PlanError> {
+        self.run_choosing(&chosen, problem, given, monitor)
+    }
+
+    /// The same with the `few` best on the first mesh refined alone, where neighbours of a sweep will be
+    /// starts again.
+    pub(in crate::study) fn run_refining(
+        &self,
+        few: usize,
+        problem: &Problem,
+        given: Option<&Start>,
+        monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
+    ) -> Result<Searched, PlanError> {
+        let best = |mut ended: Vec<Ended>| {
+            let rest = ended.split_off(few.min(ended.len()));
+            (ended, rest)
+        };
+        self.run_choosing(&best, problem, given, monitor)
+    }
+
+    fn run_choosing(
+        &self,
+        choose: &dyn Fn(Vec<Ended>) -> (Vec<Ended>, Vec<Ended>),
+        problem: &Problem,
+        given: Option<&Start>,
+        monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
+    ) -> Result<Searched, PlanError> {
         let began = Instant::now();
         let deadline = Deadline::after(problem.solver.time_limit);
         let teller = Teller::new(monitor);
@@ -120,7 +148,7 @@ impl Search {
             ..Optima::default()
         };
         let ended = self.try_starts(problem, given, &mut optima, &teller)?;
-        let (best, rest) = chosen(ended);
+        let (best, rest) = choose(ended);
         let mut refined = refine(problem, best, deadline, &teller)?;
         refined.sort_by(|a, b| {
             let unsolved = |one: &Refined| one.plan.status != Status::Solved;
@@ -134,19 +162,25 @@ impl Search {
             .found
             .extend(rest.into_iter().map(|ended| ended.optimum));
         let best = refined.into_iter().next().map(|one| one.plan);
-        let kept = |plan: &Plan| plan.status == Status::Solved || teller.has_stopped();
-        let plan = match best.filter(kept) {
-            Some(plan) => plan,
-            None => {
+        let plan = match best {
+            Some(plan) if plan.status == Status::Solved || teller.has_stopped() => plan,
+            best => {
                 let problem = within(problem, deadline)?;
                 let (candidate, of) = (1, 1);
-                Planner::new().plan_with(&problem, given, &mut |&event| {
+                let plan = Planner::new().plan_with(&problem, given, &mut |&event| {
                     teller.tell(&SearchEvent::Refining {
                         candidate,
                         of,
                         event,
                     })
-                })?
+                })?;
+                // Neither converged: the better of two that come as near.
+                let better = |best: &Plan| {
+                    [best, &plan].map(|plan| plan.status) == [Status::NotConverged; 2]
+                        && best.max_error <= plan.max_error.max(plan.tolerance)
+                        && best.objective < plan.objective
+                };
+                best.filter(better).unwrap_or(plan)
             }
         };
         optima.time = began.elapsed();
@@ -176,44 +210,34 @@ impl Search {
                 best: *least,
             });
         };
-        let mut found = Vec::new();
+        let starts = self.starts.max(1);
+        let results = Results::new(starts);
+        // Half of the starts are from nothing.
+        let fresh = starts.div_ceil(2);
         with_system!(&System::new(problem), system => {
             let first_mesh = FirstMesh::new(problem, system, given, self.seed)?;
-            for round in self.rounds() {
-                let bests: Vec<Ended> = match round.start {
-                    0 => Vec::new(),
-                    _ => found.iter().take(PERTURBED).cloned().collect(),
+            let one = |start: usize| -> Result<Option<Ended>, PlanError> {
+                let bests = match start < fresh {
+                    true => Vec::new(),
+                    false => results.best_before(start, PERTURBED),
                 };
-                let one = |k: usize| -> Result<Option<Ended>, PlanError> {
-                    if teller.has_stopped() || deadline.has_passed() {
-                        return Ok(None);
-                    }
-                    let solve = || {
-                        let mut answer = || teller.answer();
-                        first_mesh.solve(round.start + k, &bests, deadline, &mut answer)
-                    };
-                    let ended = parallel::with_threads(NonZero::<usize>::MIN, solve)?;
-                    report(&ended);
-                    Ok(ended)
+                if teller.has_stopped() || deadline.has_passed() {
+                    return Ok(None);
+                }
+                let solve = || {
+                    let mut answer = || teller.answer();
+                    first_mesh.solve(start, &bests, deadline, &mut answer)
                 };
-                let ended = parallel::map(round.len(), &one);
-                let ended: Vec<Ended> = ended
-                    .into_iter()
-                    .filter_map(Result::transpose)
-                    .collect::<Result<_, _>>()?;
-                optima.solved += ended.len();
-                found = distinct(found, ended);
-            }
+                let ended = parallel::with_threads(NonZero::<usize>::MIN, solve)?;
+                report(&ended);
+                Ok(ended)
+            };
+            parallel::map(starts, &|_| results.run_next(one));
         });
         optima.tried = tried.into_inner();
+        let (found, solved) = results.into_distinct()?;
+        optima.solved = solved;
         Ok(found)
-    }
-
-    /// The starts from nothing, then those that perturb the best until then, in two rounds.
-    fn rounds(&self) -> [Range<usize>; 3] {
-        let all = self.starts.max(1);
-        let (fresh, second) = (all.div_ceil(2), (3 * all).div_ceil(4));
-        [0..fresh, fresh..second, second..all]
     }
 }
 

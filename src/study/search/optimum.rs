@@ -40,7 +40,10 @@ pub(super) struct Ended {
 
 /// `ended` added to `found`, those that ended at the same optimum counted as one; the best first, gross
 /// ones last.
-pub(super) fn distinct(mut found: Vec<Ended>, ended: Vec<Ended>) -> Vec<Ended> {
+pub(super) fn distinct(
+    mut found: Vec<Ended>,
+    ended: impl IntoIterator<Item = Ended>,
+) -> Vec<Ended> {
     for one in ended {
         match found
             .iter_mut()
