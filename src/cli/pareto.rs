@@ -18,8 +18,8 @@ use std::time::Duration;
 ///
 /// The weights of the cost that are about the base (final attitude and position, base rate) are
 /// multiplied by a factor, in even ratios; those about the joints stay. Every plan starts from the
-/// last one, at the largest factor from several starts; further points are planned where neighbours are
-/// farthest apart.
+/// one before and a few other starts, at the largest factor from many; further points are planned
+/// where neighbours are farthest apart.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Problem file

@@ -130,38 +130,68 @@ impl<'a> ParetoFront<'a> {
         if self.search.is_none() {
             self.search_end(monitor)?;
         }
+        self.descend(monitor)?;
         self.hand_on(monitor)
     }
 
-    /// Searches from many starts at the largest factor, where optima are most, and follows what is
-    /// better there down to smaller factors as far as it is better there as well.
+    /// Searches from many starts at the largest factor, where optima are most.
     fn search_end(&mut self, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
         let Some(last) = self.points.len().checked_sub(1) else {
             return Ok(());
         };
         let many = Search {
             starts: END_STARTS,
-            ..Search::default()
+            seed: self.points.len() as u64,
         };
-        for k in (0..=last).rev() {
+        let factor = self.points[last].factor;
+        // Half of the time left is for what follows.
+        let point = self.plan((factor, Some(last)), (Starts::Search(many), 2), monitor)?;
+        self.replace(last, point);
+        Ok(())
+    }
+
+    /// From the largest factor down, solves each point on the first mesh from the motion of the point
+    /// above, and refines what is better there. That motion itself need not be: the first sweep came
+    /// from below, and a motion that serves large factors is left and found again by its own optimum.
+    fn descend(&mut self, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
+        for k in (1..self.points.len()).rev() {
+            let (above, below) = (k, k - 1);
             if self.is_over() {
                 break;
             }
-            let factor = self.points[k].factor;
-            let point = match k == last {
-                // Half of the time left is for what follows.
-                true => self.plan(
-                    (factor, Some(k)),
-                    (Starts::Search(many.clone()), 2),
-                    monitor,
-                )?,
-                false => self.plan((factor, Some(k + 1)), (Starts::Given, k + 2), monitor)?,
-            };
-            if !self.replace(k, point) {
-                break;
+            if let Some(point) = self.plan_below(below, above, monitor)? {
+                self.replace(below, point);
             }
         }
         Ok(())
+    }
+
+    /// Point `k` from the motion of point `above`, where that leads to less cost on the first mesh.
+    fn plan_below(
+        &mut self,
+        k: usize,
+        above: usize,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<ParetoPoint>, PlanError> {
+        let factor = self.points[k].factor;
+        let problem = self.within_share(scaled(self.problem, factor)?, k + 1)?;
+        let Some(start) = self.start(above) else {
+            return Ok(None);
+        };
+        let own = &self.points[k];
+        let cost = match own.is_solved() {
+            true => own.scalarised(factor),
+            false => f64::INFINITY,
+        };
+        let mut stopped = false;
+        let told = &mut |event: &SearchEvent<'_>| {
+            let answer = monitor(factor, event);
+            stopped |= answer == Control::Stop;
+            answer
+        };
+        let plan = Search::from_given(&problem, &start, cost, told)?;
+        self.stopped |= stopped;
+        Ok(plan.map(|plan| self.point(factor, plan)))
     }
 
     /// Puts `point` in the place of point `k` where it is better; whether it is.
@@ -263,21 +293,15 @@ impl<'a> ParetoFront<'a> {
         monitor: &mut Monitor<'_>,
     ) -> Result<ParetoPoint, PlanError> {
         let problem = self.within_share(scaled(self.problem, factor)?, left)?;
-        let usable = |status| status == Status::Solved || status == Status::NotConverged;
-        let start = from
-            .map(|k| &self.points[k].plan)
-            .filter(|plan| usable(plan.status))
-            .map(|plan| Start {
-                trajectory: plan.discretization.clone(),
-                iterate: Some(plan.iterate.clone()),
-            });
+        let start = from.and_then(|k| self.start(k));
         let told = &mut |event: &SearchEvent<'_>| monitor(factor, event);
         let plan = match starts {
             Starts::Search(search) => search.run(&problem, start.as_ref(), told)?.plan,
             Starts::Few => {
                 let search = Search {
                     starts: FEW_STARTS,
-                    ..Search::default()
+                    // Others than at other points: what one finds is handed on to the rest.
+                    seed: self.points.len() as u64,
                 };
                 let found = search.run_refining(FEW_REFINED, &problem, start.as_ref(), told)?;
                 found.plan
@@ -286,14 +310,29 @@ impl<'a> ParetoFront<'a> {
                 monitor(factor, &SearchEvent::of_plan(event))
             })?,
         };
+        Ok(self.point(factor, plan))
+    }
+
+    /// The motion of point `k` to start from, with its multipliers.
+    fn start(&self, k: usize) -> Option<Start> {
+        let plan = &self.points[k].plan;
+        let usable = matches!(plan.status, Status::Solved | Status::NotConverged);
+        usable.then(|| Start {
+            trajectory: plan.discretization.clone(),
+            iterate: Some(plan.iterate.clone()),
+        })
+    }
+
+    /// The point that `plan` is.
+    fn point(&mut self, factor: f64, plan: Plan) -> ParetoPoint {
         self.stopped |= plan.status == Status::Interrupted;
         let terms = cost_terms(self.problem, &plan.discretization);
-        Ok(ParetoPoint {
+        ParetoPoint {
             factor,
             base: terms.base(),
             joints: terms.joints(),
             plan,
-        })
+        }
     }
 
     /// Plans from `start`, and where its mesh and multipliers do not serve from its motion alone.

@@ -46,6 +46,8 @@ pub const STARTS: usize = 32;
 const SEARCHING: f64 = 0.6;
 /// How many of the best are refined.
 const REFINED: usize = 3;
+/// Relative difference of J on the first mesh and on finer ones that is one of meshes.
+const MESHES: f64 = 1e-3;
 /// How many of the best are perturbed.
 const PERTURBED: usize = 3;
 
@@ -131,6 +133,24 @@ impl Search {
             (ended, rest)
         };
         self.run_choosing(&best, problem, given, monitor)
+    }
+
+    /// Solves from the straight path and `given` on the first mesh, and refines what is better there than
+    /// `cost`; nothing where neither is.
+    pub(in crate::study) fn from_given(
+        problem: &Problem,
+        given: &Start,
+        cost: f64,
+        monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
+    ) -> Result<Option<Plan>, PlanError> {
+        let deadline = Deadline::after(problem.solver.time_limit);
+        let teller = Teller::new(monitor);
+        let (search, mut optima) = (Self { starts: 2, seed: 0 }, Optima::default());
+        let ended = search.try_starts(problem, Some(given), &mut optima, &teller)?;
+        let better = |one: &Ended| one.optimum.objective < cost * (1.0 - MESHES);
+        let best = ended.into_iter().next().filter(better);
+        let refined = refine(problem, best.into_iter().collect(), deadline, &teller)?;
+        Ok(refined.into_iter().next().map(|one| one.plan))
     }
 
     fn run_choosing(
