@@ -54,6 +54,34 @@ impl ProblemFile {
         Ok(file)
     }
 
+    /// The problem that `text` describes, as if it stood in a file at `path`: the path of its robot is
+    /// relative to that.
+    ///
+    /// # Errors
+    /// As of [`ProblemFile::load`].
+    pub fn of_text(path: &Path, text: &str, overrides: &Overrides) -> Result<Self, ConfigError> {
+        let shown = path.display().to_string();
+        let texts = [(shown.as_str(), text)];
+        let file = Self::read(path, Files::Held(&texts), overrides)?;
+        file.possible()?;
+        Ok(file)
+    }
+
+    /// The problem again with `overrides` on top of those that it was made with. No file is read.
+    ///
+    /// # Errors
+    /// As of [`ProblemFile::load`].
+    pub fn edited(&self, overrides: &Overrides) -> Result<Self, ConfigError> {
+        let texts = [
+            (self.path.as_str(), self.text.as_str()),
+            (self.robot.path.as_str(), self.robot.text.as_str()),
+        ];
+        let all = Overrides::replay(&self.overrides)?.and(overrides);
+        let file = Self::read(Path::new(&self.path), Files::Held(&texts), &all)?;
+        file.possible()?;
+        Ok(file)
+    }
+
     /// Asks whether the task can be carried out at all.
     ///
     /// # Errors
