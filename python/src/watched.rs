@@ -6,6 +6,7 @@
 use crate::monitor::Monitor;
 use crate::progress::Progress;
 use ffsm_ipopt::nlp::Control;
+use pyo3::prelude::*;
 use std::io;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
