@@ -119,7 +119,7 @@ def plan(
             on_progress(Progress(*values))
 
     found = _native.plan(
-        problem._native,
+        problem._inner,
         _start(start),
         (starts, seed) if starts else None,
         method,
@@ -176,7 +176,7 @@ def plan_many(
         if on_record is not None:
             on_record(record)
 
-    natives = [problem._native for problem in problems]
+    natives = [problem._inner for problem in problems]
     _native.plan_many(natives, jobs, _start(start), trajectories, told)
     records.sort(key=lambda record: record.position)
     return records
@@ -190,7 +190,7 @@ def check(problem: "Union[Problem, Path]") -> str:
     """
     if not isinstance(problem, Problem):
         problem = Problem.from_toml(problem)
-    return problem._native.understood()
+    return problem._inner.understood()
 
 
 class Judgement(NamedTuple):
@@ -212,7 +212,7 @@ def verify(solution: "Union[Solution, Path]") -> Judgement:
     """
     if not isinstance(solution, Solution):
         solution = Solution.load(solution)
-    found = json.loads(solution._native.verify())
+    found = json.loads(solution._inner.verify())
     figures = found["verification"]
     return Judgement(
         found["confirmed"],
@@ -226,4 +226,4 @@ def _start(start: Optional[_Start]) -> Optional[_native.Solution]:
         return None
     if not isinstance(start, Solution):
         start = Solution.load(os.fspath(start))
-    return start._native
+    return start._inner

@@ -18,8 +18,8 @@ class Problem:
         ProblemError: what is wrong with it, or why no motion can carry it out, with key and place.
     """
 
-    __slots__ = ("_native",)
-    _native: _native.Problem
+    __slots__ = ("_inner",)
+    _inner: _native.Problem
 
     def __init__(self) -> None:
         raise TypeError("use Problem.from_toml, from_dict or from_urdf")
@@ -27,7 +27,7 @@ class Problem:
     @classmethod
     def _of(cls, native: _native.Problem) -> "Problem":
         problem = cls.__new__(cls)
-        problem._native = native
+        problem._inner = native
         return problem
 
     @classmethod
@@ -70,64 +70,64 @@ class Problem:
 
     def with_values(self, values: _toml.Values) -> "Problem":
         """The problem again with more values laid over it; no file is read."""
-        return type(self)._of(self._native.edited(_toml.assignments(values)))
+        return type(self)._of(self._inner.edited(_toml.assignments(values)))
 
     @property
     def name(self) -> str:
         """Name of the problem."""
-        return self._native.name
+        return self._inner.name
 
     @property
     def robot(self) -> str:
         """Name of the robot."""
-        return self._native.robot
+        return self._inner.robot
 
     @property
     def joint_names(self) -> Tuple[str, ...]:
         """Names of the n joints, in the order of every array of joints."""
-        return tuple(self._native.joint_names)
+        return tuple(self._inner.joint_names)
 
     @property
     def duration(self) -> Tuple[float, float]:
         """Least and largest duration t_f, s; equal where it is fixed."""
-        return self._native.duration
+        return self._inner.duration
 
     @property
     def attitude(self) -> str:
         """How the base attitude is described: "angle" in the plane (1 value), else "roll-pitch-yaw" (3),
         "quaternion" (w, x, y, z) or "mrp" (3)."""
-        return self._native.attitude
+        return self._inner.attitude
 
     @property
     def end_effector(self) -> Optional[str]:
         """The body at whose frame the end effector is."""
-        return self._native.end_effector
+        return self._inner.end_effector
 
     @property
     def notes(self) -> Tuple[str, ...]:
         """What a user should know of how the files were read, though nothing is wrong."""
-        return tuple(self._native.notes)
+        return tuple(self._inner.notes)
 
     @property
     def repairs(self) -> Tuple[str, ...]:
         """What was changed of the robot."""
-        return tuple(self._native.repairs)
+        return tuple(self._inner.repairs)
 
     @property
     def text(self) -> str:
         """The problem file, without the values laid over it."""
-        return self._native.texts()[0][1]
+        return self._inner.texts()[0][1]
 
     @property
     def values(self) -> Tuple[str, ...]:
         """The values laid over it, as options of the command line."""
-        return tuple(self._native.texts()[2])
+        return tuple(self._inner.texts()[2])
 
     def __repr__(self) -> str:
         return f"<Problem {self.name!r}: {self.robot}, {len(self.joint_names)} joints>"
 
     def __reduce__(self) -> "Tuple[Any, Tuple[Any, ...]]":
-        return _restored, self._native.texts()
+        return _restored, self._inner.texts()
 
 
 def _restored(problem: Tuple[str, str], robot: Tuple[str, str], options: List[str]) -> Problem:

@@ -132,8 +132,8 @@ class Solution:
     those of :class:`Trajectory`; the last node is t_f.
     """
 
-    __slots__ = ("_figures", "_native", "_nodes", "_problem")
-    _native: _native.Solution
+    __slots__ = ("_figures", "_inner", "_nodes", "_problem")
+    _inner: _native.Solution
     _figures: Optional[Dict[str, Any]]
     _nodes: Optional[Trajectory]
     _problem: Optional[Problem]
@@ -144,7 +144,7 @@ class Solution:
     @classmethod
     def _of(cls, native: _native.Solution, problem: Optional[Problem] = None) -> "Solution":
         solution = cls.__new__(cls)
-        solution._native = native
+        solution._inner = native
         solution._figures = None
         solution._nodes = None
         solution._problem = problem
@@ -161,38 +161,38 @@ class Solution:
 
     def save(self, path: Path) -> None:
         """Writes a ``solution.json``, all of it or nothing, with problem and robot in it."""
-        self._native.save(os.fspath(path))
+        self._inner.save(os.fspath(path))
 
     def to_dict(self) -> Dict[str, Any]:
         """The whole ``solution.json``: docs/solution-file.md."""
-        found: Dict[str, Any] = json.loads(self._native.text())
+        found: Dict[str, Any] = json.loads(self._inner.text())
         return found
 
     @property
     def problem(self) -> Problem:
         """The problem."""
         if self._problem is None:
-            self._problem = Problem._of(self._native.problem)
+            self._problem = Problem._of(self._inner.problem)
         return self._problem
 
     @property
     def status(self) -> str:
         """"solved", "infeasible", "not_converged" or "interrupted"."""
-        return self._native.status
+        return self._inner.status
 
     @property
     def objective(self) -> float:
         """Cost J of (14)."""
-        return self._native.objective
+        return self._inner.objective
 
     @property
     def duration(self) -> float:
         """Duration t_f, s."""
-        return self._native.duration
+        return self._inner.duration
 
     def _figure(self, name: str) -> Any:
         if self._figures is None:
-            self._figures = json.loads(self._native.figures())
+            self._figures = json.loads(self._inner.figures())
         return self._figures[name]
 
     @property
@@ -288,7 +288,7 @@ class Solution:
     def trajectory(self) -> Trajectory:
         """The planned motion at the nodes; the same arrays every time."""
         if self._nodes is None:
-            self._nodes = Trajectory(*self._native.nodes())
+            self._nodes = Trajectory(*self._inner.nodes())
         return self._nodes
 
     @property
@@ -352,7 +352,7 @@ class Solution:
                 f"t: {outside.flat[0]} s is not in the motion; expected 0 to {self.duration} s"
             )
         fractions = np.atleast_1d(times / self.duration)
-        motion = Trajectory(*self._native.sample(fractions.tolist()))
+        motion = Trajectory(*self._inner.sample(fractions.tolist()))
         # The time as it was given: one of a fraction may differ in the last digit.
         exact = np.atleast_1d(times).copy()
         exact.flags.writeable = False
@@ -372,7 +372,7 @@ class Solution:
         return f"<Solution of {self.problem.name!r}: {self.status}, J = {self.objective:.9g}>"
 
     def __reduce__(self) -> "Tuple[Any, Tuple[Any, ...]]":
-        return _restored, (self._native.text(),)
+        return _restored, (self._inner.text(),)
 
 
 def _restored(text: str) -> Solution:

@@ -80,7 +80,7 @@ fn alone(
     monitor: &mut Monitor,
 ) -> Planned {
     let mut tell = |event: &Event<'_>| match Progress::of(event) {
-        Some(step) => monitor.tell(|_, callback| callback.call1((step,)).map(drop)),
+        Some(step) => monitor.tell(|_, callback| callback.call1((step.values(),)).map(drop)),
         None => monitor.ask(),
     };
     let plan = Planner::new().plan_by(method, &file.problem, start, &mut tell);

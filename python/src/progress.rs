@@ -3,10 +3,9 @@
 use ffsm_ipopt::planner::Event;
 use ffsm_ipopt::refine;
 use ffsm_ipopt::study::search::SearchEvent;
-use pyo3::prelude::*;
 
 /// A step of planning.
-#[derive(Debug, Clone, Copy, Default, IntoPyObject)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Progress {
     pub stage: &'static str,
     pub number: Option<usize>,
@@ -16,7 +15,29 @@ pub struct Progress {
     pub max_error: Option<f64>,
 }
 
+/// The fields, in the order of the tuple of that name in Python.
+type Values = (
+    &'static str,
+    Option<usize>,
+    Option<usize>,
+    Option<usize>,
+    Option<f64>,
+    Option<f64>,
+);
+
 impl Progress {
+    /// The fields.
+    pub fn values(self) -> Values {
+        (
+            self.stage,
+            self.number,
+            self.of,
+            self.points,
+            self.objective,
+            self.max_error,
+        )
+    }
+
     /// Of a plan; `None` of steps that nobody asks for.
     pub fn of(event: &Event<'_>) -> Option<Self> {
         let step = |stage, number, of| Self {

@@ -47,7 +47,7 @@ pub fn watched<R: Send>(
             })?;
         loop {
             let control = match steps.recv_timeout(TICK) {
-                Ok(step) => monitor.tell(|_, callback| callback.call1((step,)).map(drop)),
+                Ok(step) => monitor.tell(|_, callback| callback.call1((step.values(),)).map(drop)),
                 Err(RecvTimeoutError::Timeout) => monitor.ask(),
                 Err(RecvTimeoutError::Disconnected) => break,
             };
