@@ -206,15 +206,13 @@ def test_what_a_callback_raises_ends_the_plan(smooth, search):
     assert ffsm.plan(smooth).status == "solved"
 
 
-def test_a_data_frame_has_the_columns_of_the_file(planned, saved):
-    import pandas
+def test_a_data_frame_has_the_columns_of_the_file(planned, saved, pandas):
     theirs = pandas.read_csv(saved / "trajectory.csv")
     # Readers of CSV may miss the last digit.
     pandas.testing.assert_frame_equal(planned.to_pandas(), theirs, rtol=1e-14, atol=0.0)
 
 
-def test_a_figure_is_drawn(planned, tmp_path):
-    from matplotlib import pyplot
+def test_a_figure_is_drawn(planned, tmp_path, pyplot):
     figure = planned.plot(points=50)
     lines = [len(axis.lines) for axis in figure.axes]
     assert lines == [1, 2, 2, 2]

@@ -16,7 +16,10 @@ CALLS = {
     "plan_many": "ffsm.plan_many([problem] * 2000, on_record=begun)",
 }
 CHILD = """
+import signal
 import ffsm_ipopt as ffsm
+# A shell's background job, which the tests may be, ignores Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 # No mesh is fine enough, so that planning does not end by itself for long.
 values = {{"mesh.tolerance": 1e-13, "mesh.max_iterations": 1000, "mesh.method": "rpm"}} if {endless} else None
 problem = ffsm.Problem.from_toml({path!r}, values)

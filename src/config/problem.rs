@@ -364,7 +364,7 @@ mod tests {
             third.overrides,
             ["--set task.duration=25", "--set mesh.points=7"]
         );
-        let error = third.edited(&with(&["task.duration=0.1"])).unwrap_err();
+        let error = third.edited(&with(&["task.duration=1.0"])).unwrap_err();
         assert!(matches!(error, ConfigError::Impossible { .. }), "{error}");
         assert_eq!(error.key().as_deref(), Some("task.duration"));
     }
