@@ -98,7 +98,7 @@ def plan(
         seed: what the random numbers of the search begin with.
         method: one of :data:`METHODS`, instead of the problem's.
         verify: whether the plan is integrated again with the full dynamics: one that this does not
-            confirm is "not_converged". Costs about a tenth of the planning.
+            confirm is "not_converged".
         on_progress: called with every step; what it raises ends the plan and is raised here.
 
     Returns:
