@@ -38,35 +38,13 @@ sysroot=$(rustc --print sysroot)
 
 top=$PWD/target/fresh-debian
 base=$top/base
-home=/home/newcomer # inside the new Debian
 rm -rf --one-file-system "$top"
-mkdir -p "$base"
+. scripts/debian-root.sh
+mkdir -p "$top"
 trap '[ $? = 0 ] || echo "failed; the Debian root is left in $top" >&2' EXIT
 
 make_base() {
-  local sources mirror file
-  # This machine's Debian mirrors, in sources.list form; debootstrap's own default without them.
-  # shellcheck disable=SC2016 # apt expands these
-  sources=$(apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' \
-    'Created-By: Packages' 'Origin: Debian' 2>/dev/null | grep ' bookworm' || true)
-  mirror=$(sed -n 's/^deb \(.*\) bookworm main$/\1/p' <<<"$sources" | sed -n 1p)
-  debootstrap --variant=minbase bookworm "$base" ${mirror:+"$mirror"} >"$top/debootstrap.log" 2>&1 || {
-    tail -n 25 "$top/debootstrap.log" >&2
-    die "debootstrap failed"
-  }
-  [ -z "$mirror" ] || echo "$sources" >"$base/etc/apt/sources.list"
-
-  # How this machine reaches the network: names, apt's proxy, certificate authorities of its own, cargo's settings.
-  cp -L /etc/resolv.conf /etc/hosts "$base/etc/"
-  apt-config dump | grep -E '^Acquire::(https?|Check|Retries|Proxy)' >"$base/etc/apt/apt.conf.d/90host" || true
-  mkdir -p "$base/usr/local/share/ca-certificates" "$base$home/.cargo"
-  for file in /usr/local/share/ca-certificates/*.crt "${CARGO_HTTP_CAINFO:-}" "${SSL_CERT_FILE:-}"; do
-    [ ! -f "$file" ] || [ "$file" = /etc/ssl/certs/ca-certificates.crt ] ||
-      cp -L "$file" "$base/usr/local/share/ca-certificates/$(basename "${file%.*}").crt"
-  done
-  for file in "${CARGO_HOME:-$HOME/.cargo}"/config{,.toml}; do
-    [ ! -f "$file" ] || cp -L "$file" "$base$home/.cargo/"
-  done
+  make_root "$base"
 
   mkdir -p "$base/opt/rust" "$base$home/ffsm-ipopt"
   tar -C "$sysroot" --exclude=./share -cf - . | tar -C "$base/opt/rust" -xf -
@@ -77,25 +55,6 @@ make_base() {
   else
     git archive HEAD
   fi | tar -C "$base$home/ffsm-ipopt" -xf -
-}
-
-# Proxy and cargo settings that go into the root with the commands; certificate files and secrets do not.
-settings=()
-while IFS= read -r -d '' pair; do
-  case ${pair%%=*} in
-    *_TOKEN | CARGO_HTTP_CAINFO) ;;
-    *_proxy | *_PROXY | CARGO_HTTP_* | CARGO_NET_* | CARGO_REGISTRIES_* | CARGO_SOURCE_*) settings+=("$pair") ;;
-  esac
-done < <(env -0)
-
-# enter ROOT COMMAND...: runs the command in the root, under $wrapper if that is not empty.
-wrapper=()
-enter() {
-  local root=$1
-  shift
-  env -i HOME="$home" LANG=C.UTF-8 TERM="${TERM:-dumb}" "${settings[@]}" \
-    PATH=/opt/rust/bin:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-    "${wrapper[@]}" chroot "$root" "$@" </dev/null
 }
 
 report=()

@@ -7,7 +7,7 @@ use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Plan, Planner, Start, Status, plan};
 use ffsm_ipopt::problem::Problem;
 use ffsm_ipopt::refine::{Decision, Method};
-use ffsm_ipopt::system::straight_line;
+use ffsm_ipopt::system::{at_fractions, straight_line};
 
 #[test]
 fn straight_joint_path_turns_the_base() {
@@ -245,4 +245,27 @@ fn the_monitor_stops_a_plan_and_keeps_what_there_is() {
         .unwrap();
     assert_eq!(plan.status, Status::Interrupted);
     assert_eq!(plan.trajectory.t.len(), 51);
+}
+
+#[test]
+fn a_motion_sampled_at_its_nodes_is_that_at_its_nodes() {
+    let problem = problems::smooth();
+    let plan = plan(&problem).unwrap();
+    let nodes = plan.discretization.mesh.node_fractions();
+    let sampled = at_fractions(&problem, &plan.discretization, &nodes);
+    let near = |a: &[Vec<f64>], b: &[Vec<f64>]| {
+        assert_eq!(a.len(), b.len());
+        for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+            assert!((a - b).abs() <= 1e-12 * (1.0 + b.abs()), "{a} {b}");
+        }
+    };
+    let planned = &plan.trajectory;
+    assert_eq!(sampled.t, planned.t);
+    near(&sampled.base_attitude, &planned.base_attitude);
+    near(&sampled.base_position, &planned.base_position);
+    near(&sampled.base_rate, &planned.base_rate);
+    near(&sampled.joint_position, &planned.joint_position);
+    near(&sampled.joint_velocity, &planned.joint_velocity);
+    near(&sampled.control, &planned.control);
+    near(&sampled.joint_torque, &planned.joint_torque);
 }

@@ -34,9 +34,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut overrides = Overrides::default();
     overrides.repair(arguments.repair);
     let file = ProblemFile::load(&arguments.problem, &overrides)?;
+    terminal::print(&understood(&file))?;
+    Ok(Outcome::Done)
+}
+
+/// What `check` prints of a problem file.
+pub fn understood(file: &ProblemFile) -> String {
     let problem = &file.problem;
     let mut lines = Lines::default();
-    robot(&mut lines, &file);
+    robot(&mut lines, file);
     task(&mut lines, problem);
     limits(&mut lines, problem);
     cost(&mut lines, problem);
@@ -47,15 +53,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         .map(|change| format!("warning: {change}\n"));
     let notes = file.notes.iter().map(|note| format!("note: {note}\n"));
     let notes: String = repairs.chain(notes).collect();
-    terminal::print(&format!(
+    format!(
         "{}: valid\n\n{}\n{}{}{}\n",
         file.path,
         lines.finish(),
         notes,
         if notes.is_empty() { "" } else { "\n" },
         straight(problem)
-    ))?;
-    Ok(Outcome::Done)
+    )
 }
 
 fn robot(lines: &mut Lines, file: &ProblemFile) {

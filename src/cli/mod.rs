@@ -27,6 +27,8 @@ mod table2;
 mod terminal;
 mod verify;
 
+pub use check::understood;
+
 use crate::config;
 use crate::parallel;
 use crate::solution::Build;

@@ -2,6 +2,7 @@
 
 use crate::dynamics::{InertiaError, ModelError};
 use crate::problem::Impossible;
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -192,6 +193,51 @@ fn listed(faults: &[ConfigError]) -> String {
 impl ConfigError {
     /// Where it is.
     pub fn place(&self) -> &Place {
+        match self {
+            Self::Unreadable { place, .. }
+            | Self::Format { place, .. }
+            | Self::UnknownKey { place, .. }
+            | Self::Missing { place, .. }
+            | Self::Value { place, .. }
+            | Self::Inertia { place, .. }
+            | Self::Model { place, .. }
+            | Self::Unphysical { place, .. }
+            | Self::Impossible { place, .. }
+            | Self::Unvaried { place, .. }
+            | Self::Several { place, .. } => place,
+        }
+    }
+
+    /// The key it is about, where it is about one; of several faults that of the first.
+    pub fn key(&self) -> Option<Cow<'_, str>> {
+        match self {
+            Self::Unreadable { .. } | Self::Format { .. } => None,
+            Self::UnknownKey { key, .. }
+            | Self::Missing { key, .. }
+            | Self::Value { key, .. }
+            | Self::Inertia { key, .. }
+            | Self::Model { key, .. }
+            | Self::Unphysical { key, .. }
+            | Self::Unvaried { key, .. } => Some(key.into()),
+            Self::Impossible { cause, .. } => Some(cause.key().into()),
+            Self::Several { faults, .. } => faults.first().and_then(Self::key),
+        }
+    }
+
+    /// The same without lines of `source`, for a text that nobody has seen.
+    pub fn without_lines_of(mut self, source: &str) -> Self {
+        if let Self::Several { faults, .. } = &mut self {
+            let without = |fault: Self| fault.without_lines_of(source);
+            *faults = std::mem::take(faults).into_iter().map(without).collect();
+        }
+        let place = self.place_mut();
+        if *place.source == *source {
+            place.line = None;
+        }
+        self
+    }
+
+    fn place_mut(&mut self) -> &mut Place {
         match self {
             Self::Unreadable { place, .. }
             | Self::Format { place, .. }

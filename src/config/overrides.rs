@@ -117,6 +117,12 @@ impl Overrides {
         Ok(overrides)
     }
 
+    /// These, and `later` laid over them.
+    pub fn and(mut self, later: &Self) -> Self {
+        self.entries.extend_from_slice(&later.entries);
+        self
+    }
+
     /// The options as they were written.
     pub fn flags(&self) -> Vec<String> {
         self.entries

@@ -54,6 +54,34 @@ impl ProblemFile {
         Ok(file)
     }
 
+    /// The problem that `text` describes, as if it stood in a file at `path`: the path of its robot is
+    /// relative to that.
+    ///
+    /// # Errors
+    /// As of [`ProblemFile::load`].
+    pub fn of_text(path: &Path, text: &str, overrides: &Overrides) -> Result<Self, ConfigError> {
+        let shown = path.display().to_string();
+        let texts = [(shown.as_str(), text)];
+        let file = Self::read(path, Files::Held(&texts), overrides)?;
+        file.possible()?;
+        Ok(file)
+    }
+
+    /// The problem again with `overrides` on top of those that it was made with. No file is read.
+    ///
+    /// # Errors
+    /// As of [`ProblemFile::load`].
+    pub fn edited(&self, overrides: &Overrides) -> Result<Self, ConfigError> {
+        let texts = [
+            (self.path.as_str(), self.text.as_str()),
+            (self.robot.path.as_str(), self.robot.text.as_str()),
+        ];
+        let all = Overrides::replay(&self.overrides)?.and(overrides);
+        let file = Self::read(Path::new(&self.path), Files::Held(&texts), &all)?;
+        file.possible()?;
+        Ok(file)
+    }
+
     /// Asks whether the task can be carried out at all.
     ///
     /// # Errors
@@ -289,4 +317,69 @@ pub(super) fn name_of(path: &Path) -> Result<String, ConfigError> {
         found: format!("not given, and that of the file is {}", quoted(&stem)),
         expected: EXPECTED_NAME.into(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PATH: &str = "config/table1-smooth.toml";
+
+    fn text() -> String {
+        std::fs::read_to_string(PATH).unwrap()
+    }
+
+    fn with(values: &[&str]) -> Overrides {
+        let values: Vec<String> = values.iter().map(|value| value.to_string()).collect();
+        Overrides::of(&values).unwrap()
+    }
+
+    #[test]
+    fn a_text_is_the_file_that_it_stands_for() {
+        let (path, overrides) = (Path::new(PATH), with(&["task.duration=25"]));
+        let of_text = ProblemFile::of_text(path, &text(), &overrides).unwrap();
+        let of_file = ProblemFile::load(path, &overrides).unwrap();
+        assert_eq!(of_text.problem, of_file.problem);
+        assert_eq!(of_text.text, of_file.text);
+        assert_eq!(of_text.robot.text, of_file.robot.text);
+    }
+
+    #[test]
+    fn what_is_edited_reads_no_file_and_keeps_earlier_values() {
+        // Where there is no robot's file any more.
+        let first = ProblemFile::shipped("table1-smooth").unwrap();
+        let first = ProblemFile {
+            path: "nowhere/problem.toml".into(),
+            text: first.text.replace("robots/", ""),
+            robot: RobotFile {
+                path: "nowhere/planar-2link.toml".into(),
+                ..first.robot
+            },
+            ..first
+        };
+        let second = first.edited(&with(&["task.duration=25"])).unwrap();
+        let third = second.edited(&with(&["mesh.points=7"])).unwrap();
+        assert_eq!(third.problem.task.duration.lower, 25.0);
+        assert_eq!(
+            third.overrides,
+            ["--set task.duration=25", "--set mesh.points=7"]
+        );
+        let error = third.edited(&with(&["task.duration=1.0"])).unwrap_err();
+        assert!(matches!(error, ConfigError::Impossible { .. }), "{error}");
+        assert_eq!(error.key().as_deref(), Some("task.duration"));
+    }
+
+    #[test]
+    fn errors_name_their_keys_and_lines_unless_nobody_wrote_these() {
+        let text = text().replace("duration =", "duratoin =");
+        let error = ProblemFile::of_text(Path::new(PATH), &text, &Overrides::default());
+        let error = error.unwrap_err();
+        assert_eq!(error.key().as_deref(), Some("task.duratoin"));
+        assert!(error.place().line.is_some());
+        let other = error.clone().without_lines_of("other.toml");
+        assert_eq!(other, error);
+        let without = error.without_lines_of(PATH);
+        assert_eq!(without.place().line, None);
+        assert!(without.to_string().starts_with(&format!("{PATH}: task.")));
+    }
 }

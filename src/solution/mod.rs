@@ -25,7 +25,7 @@ pub use schema::{
     CostTerm, Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Optimum, Search,
     Solution, Timing, Trajectory, Verification,
 };
-pub use warm_start::{OtherRobot, WarmStart, read_warm_start};
+pub use warm_start::{OtherRobot, WarmStart, read_warm_start, warm_start};
 pub use write::{search, solution};
 
 pub(crate) use write::{timing, verification};

@@ -2,11 +2,12 @@
 
 use super::provenance::fingerprint;
 use super::shape::{self, Misfit};
+use super::write::solution;
 use super::{Provenance, Solution, Trajectory};
 use crate::collocation::{Mesh, MeshError};
 use crate::config::{ConfigError, ProblemFile, regular};
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
-use crate::planner::Status;
+use crate::planner::{Plan, Status};
 use crate::problem::Problem;
 use crate::system::with_peaks;
 use crate::transcription::Discretization;
@@ -67,6 +68,29 @@ pub enum SolutionError {
     },
 }
 
+impl SolutionError {
+    /// The file.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Unreadable { path, .. }
+            | Self::Format { path, .. }
+            | Self::Mesh { path, .. }
+            | Self::Misfit { path, .. }
+            | Self::Provenance { path, .. } => path,
+        }
+    }
+
+    /// The key in it that it is about, where it is about one.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Unreadable { .. } => None,
+            Self::Format { key, .. } | Self::Misfit { key, .. } => Some(key),
+            Self::Mesh { .. } => Some("mesh"),
+            Self::Provenance { .. } => Some("provenance"),
+        }
+    }
+}
+
 /// A saved solution with the problem it is a plan for.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -80,6 +104,16 @@ pub struct Saved {
 }
 
 impl Saved {
+    /// `plan` for the problem in `file`, as it is saved.
+    pub fn planned(file: ProblemFile, plan: Plan) -> Self {
+        let provenance = Provenance::of(&file, &plan.linear_solver);
+        Self {
+            solution: solution(&file.problem.name, &plan, provenance),
+            file,
+            plan: plan.discretization,
+        }
+    }
+
     /// Reads a `solution.json` with everything in it that was planned, and for what.
     ///
     /// # Errors

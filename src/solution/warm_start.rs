@@ -2,7 +2,7 @@
 
 use super::provenance::fingerprint;
 use super::read::{SolutionError, description, discretization, fits, read_solution, untouched};
-use super::{Iterate, Provenance};
+use super::{Iterate, Provenance, Solution};
 use crate::config::ProblemFile;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::nlp;
@@ -59,8 +59,19 @@ impl fmt::Display for OtherRobot {
 /// # Errors
 /// [`SolutionError`], a start for a robot with other joints included.
 pub fn read_warm_start(path: &Path, file: &ProblemFile) -> Result<WarmStart, SolutionError> {
+    warm_start(path, read_solution(path)?, file)
+}
+
+/// [`read_warm_start`] of a `solution` that was read or made before; `path` is named in errors.
+///
+/// # Errors
+/// As of [`read_warm_start`].
+pub fn warm_start(
+    path: &Path,
+    solution: Solution,
+    file: &ProblemFile,
+) -> Result<WarmStart, SolutionError> {
     let problem = &file.problem;
-    let solution = read_solution(path)?;
     let trajectory = discretization(path, &solution)?;
     let kept = &solution.provenance;
     untouched(path, kept)?;

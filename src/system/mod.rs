@@ -63,7 +63,7 @@ pub use shadow_prices::{ShadowPrice, shadow_prices};
 pub use sizes::sizes;
 pub use starts::StartKind;
 pub use straight_line::{StraightLine, straight_line, straight_motion};
-pub use trajectory::{limited_angles, resampled};
+pub use trajectory::{at_fractions, limited_angles, resampled};
 
 pub(crate) use dispatch::with_system;
 pub(crate) use goal_errors::goal_errors_in;

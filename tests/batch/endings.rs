@@ -2,6 +2,10 @@
 
 use crate::program::{Folder, PROBLEM, edited};
 use crate::rows::*;
+use ffsm_ipopt::config::BatchFile;
+use ffsm_ipopt::nlp::ipopt::interrupt;
+use ffsm_ipopt::study::batch::{RowPlanner, RowStatus};
+use std::cell::Cell;
 use std::process::{Child, Command};
 use std::time::Duration;
 
@@ -186,4 +190,20 @@ fn a_data_set_is_readable_while_it_grows() {
     }
     assert!(child.wait().unwrap().success());
     assert_eq!(rows(&folder, "o").len(), 400);
+}
+
+#[test]
+fn a_row_that_is_stopped_ends_alone() {
+    let folder = folder(BATCH);
+    let batch = BatchFile::load(&folder.path().join("batch.toml"), None).expect("a batch");
+    let mut planner = RowPlanner::new(None, false);
+    let asked = Cell::new(0);
+    let stopped = || {
+        asked.set(asked.get() + 1);
+        asked.get() > 3
+    };
+    let row = planner.plan_until(&batch, 0, &stopped);
+    assert_eq!(row.status, RowStatus::Interrupted);
+    assert!(!interrupt::requested());
+    assert_eq!(planner.plan(&batch, 0).status, RowStatus::Solved);
 }

@@ -124,7 +124,7 @@ impl Engine {
                     Err(RecvTimeoutError::Disconnected) => return Ok(()),
                 };
                 if told(event) == Control::Stop {
-                    // With the receiver gone, threads end after the row they are at.
+                    // Rows in the making end after their iteration; with the receiver gone, none is told.
                     stop.store(true, Ordering::Relaxed);
                     return Ok(());
                 }
@@ -140,7 +140,8 @@ impl Engine {
         stop: &AtomicBool,
         sender: &SyncSender<Result<Record, EngineError>>,
     ) {
-        let stopped = || stop.load(Ordering::Relaxed) || interrupt::requested();
+        let told_to_stop = || stop.load(Ordering::Relaxed);
+        let stopped = || told_to_stop() || interrupt::requested();
         let mut here = RowPlanner::new(self.start.clone(), self.motions);
         let mut elsewhere = match &self.isolation {
             Isolation::Threads => None,
@@ -149,7 +150,7 @@ impl Engine {
         while !stopped() {
             let Some(position) = next() else { return };
             let record = match &mut elsewhere {
-                None => Ok(here.plan(tasks, position)),
+                None => Ok(here.plan_until(tasks, position, &told_to_stop)),
                 Some(process) => process.plan((position, tasks.key(position)), &stopped),
             };
             let interrupted =

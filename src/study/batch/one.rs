@@ -36,6 +36,17 @@ impl RowPlanner {
 
     /// Plans the row at `position`. Whatever goes wrong, a panic included, is in its record.
     pub fn plan<T: Tasks + ?Sized>(&mut self, tasks: &T, position: u64) -> Record {
+        self.plan_until(tasks, position, &|| false)
+    }
+
+    /// As [`RowPlanner::plan`], but ends as interrupted once `stopped` holds, which is asked after every
+    /// iteration. Unlike a signal's flag it ends this plan alone.
+    pub fn plan_until<T: Tasks + ?Sized>(
+        &mut self,
+        tasks: &T,
+        position: u64,
+        stopped: &dyn Fn() -> bool,
+    ) -> Record {
         let began = Instant::now();
         let key = tasks.key(position);
         let lost = |status, reason: &str| {
@@ -45,7 +56,7 @@ impl RowPlanner {
         // What a panic leaves half done in the planner goes with it.
         let planned = catch_unwind(AssertUnwindSafe(|| {
             let task = tasks.task(position)?;
-            let planned = plan(&mut self.planner, &task, self.start.as_ref());
+            let planned = plan(&mut self.planner, &task, self.start.as_ref(), stopped);
             Ok::<_, Refusal>((planned, task))
         }));
         match planned {
@@ -84,12 +95,18 @@ impl RowPlanner {
     }
 }
 
-fn plan(planner: &mut Planner, task: &Task, start: Option<&Start>) -> Result<Plan, PlanError> {
+fn plan(
+    planner: &mut Planner,
+    task: &Task,
+    start: Option<&Start>,
+    stopped: &dyn Fn() -> bool,
+) -> Result<Plan, PlanError> {
     let problem = &task.problem;
     let method = Method::Collocation(problem.mesh.method);
     let mut plan = planner.plan_by(method, problem, start, &mut |event| {
-        // Ipopt asks by itself.
-        match matches!(event, Event::Step { .. }) && interrupt::requested() {
+        // Of a signal Ipopt asks by itself.
+        let signalled = matches!(event, Event::Step { .. }) && interrupt::requested();
+        match signalled || stopped() {
             true => Control::Stop,
             false => Control::Continue,
         }

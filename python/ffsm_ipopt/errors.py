@@ -1,0 +1,62 @@
+"""What is raised where there is no plan at all.
+
+An infeasible or unconverged problem raises nothing: its :class:`~ffsm_ipopt.Solution` says so.
+"""
+
+from typing import Optional, Sequence, Tuple
+
+
+class Error(Exception):
+    """Base of all errors of this package. The message is one line and says all.
+
+    Attributes:
+        key: key path that it is about, such as ``"task.duration"``; None where it is about none.
+        file: the file, or the value laid over it as it was given; None where there is none.
+        line: line in that file, counted from 1; None where there is none.
+    """
+
+    key: Optional[str]
+    file: Optional[str]
+    line: Optional[int]
+
+    def __init__(
+        self,
+        message: str,
+        key: Optional[str] = None,
+        file: Optional[str] = None,
+        line: Optional[int] = None,
+    ) -> None:
+        super().__init__(message)
+        self.key = key
+        self.file = file
+        self.line = line
+
+
+class ProblemError(Error, ValueError):
+    """A problem, or the robot it names, cannot be used, or no motion can carry it out.
+
+    Attributes:
+        faults: all that is wrong where that is more than one thing, in the order of the message; else
+            empty. Key and place are those of the first.
+    """
+
+    faults: Tuple["ProblemError", ...]
+
+    def __init__(
+        self,
+        message: str,
+        key: Optional[str] = None,
+        file: Optional[str] = None,
+        line: Optional[int] = None,
+        faults: Sequence["ProblemError"] = (),
+    ) -> None:
+        super().__init__(message, key, file, line)
+        self.faults = tuple(faults)
+
+
+class SolutionError(Error, ValueError):
+    """A ``solution.json`` cannot be used, or not for this problem."""
+
+
+class PlanError(Error, RuntimeError):
+    """The planner cannot begin: the solver refuses, or a start belongs to another robot."""
