@@ -231,15 +231,15 @@ impl Search {
             });
         };
         let starts = self.starts.max(1);
-        let results = Results::new(starts);
         // Half of the starts are from nothing.
         let fresh = starts.div_ceil(2);
+        let results = Results::new(fresh, PERTURBED);
         with_system!(&System::new(problem), system => {
             let first_mesh = FirstMesh::new(problem, system, given, self.seed)?;
             let one = |start: usize| -> Result<Option<Ended>, PlanError> {
                 let bests = match start < fresh {
                     true => Vec::new(),
-                    false => results.best_before(start, PERTURBED),
+                    false => results.best_before(start),
                 };
                 if teller.has_stopped() || deadline.has_passed() {
                     return Ok(None);

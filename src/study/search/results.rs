@@ -2,49 +2,74 @@
 
 use super::optimum::{Ended, distinct};
 use crate::planner::PlanError;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// What a start ended at; nothing where it was not solved.
 type Result = std::result::Result<Option<Ended>, PlanError>;
 
-/// The results of so many starts. Start k sees those of the starts up to k − [`LAG`](Self::LAG), no more
-/// and no less, so that what it does is the same however many starts run at the same time.
+/// The results of all starts. Start k sees those of the starts up to k − [`LAG`](Self::LAG), no more and
+/// no less, so that what it does is the same however many starts run at the same time.
 pub(super) struct Results {
-    of: Mutex<Vec<Option<Result>>>,
+    state: Mutex<State>,
     changed: Condvar,
     /// The next start.
     next: AtomicUsize,
+    /// The first start that asks for what others found.
+    asking: usize,
+    /// How many of the best it is told.
+    few: usize,
+}
+
+#[derive(Default)]
+struct State {
+    /// Results of starts that have ended before one that began earlier.
+    early: BTreeMap<usize, Result>,
+    /// How many starts are counted in `found`, from the first on.
+    counted: usize,
+    /// Distinct optima of these, the best first.
+    found: Vec<Ended>,
+    solved: usize,
+    /// That of the first start which has one.
+    error: Option<PlanError>,
+    /// What each start will see that has not asked yet.
+    seen: BTreeMap<usize, Vec<Ended>>,
 }
 
 impl Results {
     /// Starts that do not see each other: as many can run at the same time.
     pub const LAG: usize = 4;
 
-    pub fn new(starts: usize) -> Self {
+    /// Starts from `asking` on will ask for the `few` best of what others found.
+    pub fn new(asking: usize, few: usize) -> Self {
         Self {
-            of: Mutex::new((0..starts).map(|_| None).collect()),
+            state: Mutex::default(),
             changed: Condvar::new(),
             next: AtomicUsize::new(0),
+            asking,
+            few,
         }
     }
 
-    fn lock(&self) -> MutexGuard<'_, Vec<Option<Result>>> {
-        self.of.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The `few` best distinct optima that start `index` sees, as soon as all these starts have ended.
-    pub fn best_before(&self, index: usize, few: usize) -> Vec<Ended> {
-        let seen = (index + 1).saturating_sub(Self::LAG);
-        let mut results = self.lock();
-        while results[..seen].iter().any(Option::is_none) {
-            let woken = self.changed.wait(results);
-            results = woken.unwrap_or_else(PoisonError::into_inner);
+    /// The few best distinct optima that start `index` sees, as soon as all those starts have ended; to be
+    /// asked for once.
+    pub fn best_before(&self, index: usize) -> Vec<Ended> {
+        if index < Self::LAG {
+            return Vec::new();
         }
-        let ended = results[..seen].iter().flatten().flatten().flatten();
-        let mut best = distinct(Vec::new(), ended.cloned());
-        best.truncate(few);
-        best
+        let mut state = self.lock();
+        loop {
+            if let Some(seen) = state.seen.remove(&index) {
+                return seen;
+            }
+            let woken = self.changed.wait(state);
+            state = woken.unwrap_or_else(PoisonError::into_inner);
+        }
     }
 
     /// Runs the next start, and keeps what it came to. Starts begin in their order, so that those which
@@ -60,19 +85,47 @@ impl Results {
         ending.result = solve(index);
     }
 
+    /// Counts all results up to the first start that still runs.
+    fn add(&self, index: usize, result: Result) {
+        let mut state = self.lock();
+        state.early.insert(index, result);
+        while let Some(result) = {
+            let next = state.counted;
+            state.early.remove(&next)
+        } {
+            match result {
+                Ok(ended) => {
+                    state.solved += usize::from(ended.is_some());
+                    let found = std::mem::take(&mut state.found);
+                    state.found = distinct(found, ended);
+                }
+                Err(error) => {
+                    state.error.get_or_insert(error);
+                }
+            }
+            state.counted += 1;
+            let sees = state.counted + Self::LAG - 1;
+            if sees >= self.asking {
+                let best = state.found.iter().take(self.few).cloned().collect();
+                state.seen.insert(sees, best);
+            }
+        }
+        self.changed.notify_all();
+    }
+
     /// All distinct optima, the best first, and how many starts were solved.
     ///
     /// # Errors
     /// That of the first start that has one.
     pub fn into_distinct(self) -> std::result::Result<(Vec<Ended>, usize), PlanError> {
-        let results = self.of.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let solved: Vec<Option<Ended>> = results
-            .into_iter()
-            .flatten()
-            .collect::<std::result::Result<_, _>>()?;
-        let solved: Vec<Ended> = solved.into_iter().flatten().collect();
-        let count = solved.len();
-        Ok((distinct(Vec::new(), solved), count))
+        let state = self
+            .state
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner);
+        match state.error {
+            Some(error) => Err(error),
+            None => Ok((state.found, state.solved)),
+        }
     }
 }
 
@@ -86,8 +139,7 @@ struct Ending<'r> {
 impl Drop for Ending<'_> {
     fn drop(&mut self) {
         let result = std::mem::replace(&mut self.result, Ok(None));
-        self.results.lock()[self.index] = Some(result);
-        self.results.changed.notify_all();
+        self.results.add(self.index, result);
     }
 }
 
@@ -127,11 +179,11 @@ mod tests {
     #[test]
     fn what_a_start_sees_is_the_same_on_any_number_of_threads() {
         let costs = |threads: usize| {
-            let results = Results::new(13);
+            let results = Results::new(0, 3);
             with_threads(NonZero::new(threads).unwrap(), || {
                 map(13, &|_| {
                     results.run_next(|k| {
-                        let best = results.best_before(k, 3);
+                        let best = results.best_before(k);
                         let least = best.first().map_or(100.0, |best| best.optimum.objective);
                         Ok((k != 5).then(|| ended(k, least - 1.0)))
                     });
@@ -153,11 +205,11 @@ mod tests {
 
     #[test]
     fn a_panic_leaves_nobody_waiting() {
-        let results = Results::new(5);
+        let results = Results::new(0, 3);
         let panicked = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
             results.run_next(|_| panic!("on purpose"));
         }));
         assert!(panicked.is_err());
-        assert!(results.best_before(4, 3).is_empty());
+        assert!(results.best_before(4).is_empty());
     }
 }
