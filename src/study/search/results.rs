@@ -197,7 +197,7 @@ mod tests {
             costs.collect::<Vec<_>>()
         };
         let alone = costs(1);
-        assert_eq!(alone[0], (11, 1, 97.0));
+        assert_eq!(alone[0], (12, 1, 96.0));
         for threads in 2..=4 {
             assert_eq!(costs(threads), alone);
         }
