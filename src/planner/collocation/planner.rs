@@ -200,8 +200,11 @@ impl<Sp: Space> Search<'_, Sp> {
         if diagnosed.interrupted {
             return Ok(ended(Status::Interrupted, outcome, None));
         }
-        // What time left no refinement of is not known to be needed.
-        let known = |diagnosis: &Diagnosis| diagnosis.converged || !self.deadline.has_passed();
+        // What time ended before it was refined proves nothing, unless momentum does.
+        let known = |diagnosis: &Diagnosis| {
+            let proven = diagnosis.limits.iter().any(|limit| limit.floor.is_some());
+            diagnosis.converged || proven || !self.deadline.has_passed()
+        };
         if let Some(diagnosis) = diagnosed.diagnosis.filter(known) {
             outcome.trajectory = diagnosed.trajectory;
             outcome.objective = system.cost_terms(&outcome.trajectory).total();
