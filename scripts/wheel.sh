@@ -32,7 +32,7 @@ if [ "$(cat "$top/installed.txt" 2>/dev/null)" != "$tools" ]; then
   # Last, because it says that all the rest is there.
   echo "$tools" >"$top/installed.txt"
 fi
-PATH=$PWD/$top/venv/bin:$PATH
+PATH=$top/venv/bin:$PATH
 
 rm -rf "$top"/{raw,repaired,unpacked,dist}
 maturin build --quiet --release --locked --strip --auditwheel skip --manifest-path python/Cargo.toml --out "$top/raw"
