@@ -190,10 +190,10 @@ fn listed(faults: &[ConfigError]) -> String {
     parts.join("; ")
 }
 
-impl ConfigError {
-    /// Where it is.
-    pub fn place(&self) -> &Place {
-        match self {
+/// The place of an error, borrowed as the error is.
+macro_rules! place_of {
+    ($error:expr) => {
+        match $error {
             Self::Unreadable { place, .. }
             | Self::Format { place, .. }
             | Self::UnknownKey { place, .. }
@@ -206,6 +206,13 @@ impl ConfigError {
             | Self::Unvaried { place, .. }
             | Self::Several { place, .. } => place,
         }
+    };
+}
+
+impl ConfigError {
+    /// Where it is.
+    pub fn place(&self) -> &Place {
+        place_of!(self)
     }
 
     /// The key it is about, where it is about one; of several faults that of the first.
@@ -238,18 +245,6 @@ impl ConfigError {
     }
 
     fn place_mut(&mut self) -> &mut Place {
-        match self {
-            Self::Unreadable { place, .. }
-            | Self::Format { place, .. }
-            | Self::UnknownKey { place, .. }
-            | Self::Missing { place, .. }
-            | Self::Value { place, .. }
-            | Self::Inertia { place, .. }
-            | Self::Model { place, .. }
-            | Self::Unphysical { place, .. }
-            | Self::Impossible { place, .. }
-            | Self::Unvaried { place, .. }
-            | Self::Several { place, .. } => place,
-        }
+        place_of!(self)
     }
 }
