@@ -41,18 +41,24 @@ impl Colour {
         SERIES[number % SERIES.len()]
     }
 
-    /// As SVG has it.
-    pub(super) fn hex(self) -> &'static str {
+    /// Red, green and blue.
+    pub(super) fn rgb(self) -> [u8; 3] {
         match self {
-            Self::Blue => "#0072B2",
-            Self::Vermilion => "#D55E00",
-            Self::Green => "#009E73",
-            Self::Purple => "#CC79A7",
-            Self::Orange => "#E69F00",
-            Self::Sky => "#56B4E9",
-            Self::Black => "#000000",
-            Self::Grey => "#808080",
-            Self::Light => "#D8D8D8",
+            Self::Blue => [0x00, 0x72, 0xB2],
+            Self::Vermilion => [0xD5, 0x5E, 0x00],
+            Self::Green => [0x00, 0x9E, 0x73],
+            Self::Purple => [0xCC, 0x79, 0xA7],
+            Self::Orange => [0xE6, 0x9F, 0x00],
+            Self::Sky => [0x56, 0xB4, 0xE9],
+            Self::Black => [0x00, 0x00, 0x00],
+            Self::Grey => [0x80, 0x80, 0x80],
+            Self::Light => [0xD8, 0xD8, 0xD8],
         }
+    }
+
+    /// As SVG has it.
+    pub(super) fn hex(self) -> String {
+        let [red, green, blue] = self.rgb();
+        format!("#{red:02X}{green:02X}{blue:02X}")
     }
 }

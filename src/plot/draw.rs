@@ -3,9 +3,9 @@
 use super::canvas::{Anchor, Canvas};
 use super::legend::Legend;
 use super::marks::{BAND, mark};
-use super::raster::text_width;
 use super::ruler::{Ruler, Scale, Tick};
 use super::series::Points;
+use super::text::text_width;
 use super::{Chart, Colour, Series, Shape, Stroke};
 
 /// Size of tick labels, points.

@@ -3,6 +3,8 @@
 use super::canvas::Canvas;
 use super::chart::Chart;
 use super::draw::Layout;
+use super::raster::{PlotError, png};
+use super::svg::svg;
 
 /// Width of a figure on a two-column page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,9 +64,24 @@ impl Figure {
 
     /// The figure as an SVG document.
     pub fn svg(&self) -> String {
+        let (canvas, height) = self.drawn();
+        svg(&canvas, &self.description, self.width.points(), height)
+    }
+
+    /// The figure as PNG, 288 pixels an inch.
+    ///
+    /// # Errors
+    /// [`PlotError`] for one that is empty or too large to draw.
+    pub fn png(&self) -> Result<Vec<u8>, PlotError> {
+        let (canvas, height) = self.drawn();
+        png(&canvas, self.width.points(), height)
+    }
+
+    /// Everything that is drawn, and the height, points.
+    fn drawn(&self) -> (Canvas, f64) {
         let mut canvas = Canvas::default();
         let height = self.place(|layout, corner| layout.draw(&mut canvas, corner));
-        canvas.finish(&self.description, self.width.points(), height)
+        (canvas, height)
     }
 
     /// Where the frame of every panel lies, for what is laid over the figure.
@@ -145,7 +162,7 @@ pub struct Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::{Axis, Colour, Marker, Series, Shape, png};
+    use crate::plot::{Axis, Colour, Marker, Series, Shape};
 
     fn figure() -> Figure {
         let t: Vec<f64> = (0..=100).map(|k| 0.2 * f64::from(k)).collect();
@@ -196,8 +213,8 @@ mod tests {
         // The far bound is left out: two bounds and a tolerance, and their three samples.
         let dashed = svg.matches("stroke-dasharray=\"5 2.5\"").count();
         assert_eq!(dashed, 3 + 3);
-        let picture = png(&svg).unwrap();
-        assert_eq!(picture, png(&svg).unwrap());
+        let picture = figure().png().unwrap();
+        assert_eq!(picture, figure().png().unwrap());
         assert_eq!(picture[16..20], 2064_u32.to_be_bytes());
     }
 

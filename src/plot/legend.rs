@@ -2,8 +2,8 @@
 
 use super::canvas::{Anchor, Canvas};
 use super::marks::{BAND, mark};
-use super::raster::text_width;
 use super::series::Points;
+use super::text::text_width;
 use super::{Chart, Colour, Marker, Stroke};
 
 /// Size of the text, points.

@@ -3,7 +3,7 @@
 //! Nothing here knows of robots or plans. Lengths are points (1/72 inch), so that text has the
 //! size it is printed with: a [`Width::Column`] fits one column of a two-column page. Colours are
 //! those of Okabe and Ito, which the colour-blind can tell apart. The same figure gives the same
-//! bytes on every machine: the PNG is drawn from the SVG with a font that is part of the program.
+//! bytes on every machine: the PNG is drawn with a font that is part of the program.
 //!
 //! ```
 //! use ffsm_ipopt::plot::{Axis, Chart, Figure, Series, Width};
@@ -18,7 +18,7 @@
 //!     .divisions(&[5.0, 10.0, 15.0]);
 //! let figure = Figure::new("Joint angles of a swing", Width::Column).panel(chart);
 //! let svg = figure.svg();
-//! let png = ffsm_ipopt::plot::png(&svg)?;
+//! let png = figure.png()?;
 //! assert!(svg.starts_with("<svg") && png.starts_with(b"\x89PNG"));
 //! # Ok::<(), ffsm_ipopt::plot::PlotError>(())
 //! ```
@@ -35,11 +35,13 @@ mod raster;
 mod ruler;
 mod series;
 mod shape;
+mod svg;
+mod text;
 
 pub use axis::Axis;
 pub use chart::Chart;
 pub use colour::Colour;
 pub use figure::{Figure, Frame, Width};
-pub use raster::{PlotError, png};
+pub use raster::PlotError;
 pub use series::{Marker, Series, Stroke};
 pub use shape::Shape;

@@ -1,21 +1,18 @@
-//! PNG from SVG, and the widths of texts, with a font that is part of the program.
+//! A canvas as PNG.
 
-use crate::printable::printable;
-use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb};
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::sync::{Arc, LazyLock};
+use super::Colour;
+use super::canvas::{Anchor, Canvas, Direction, Element, RING, dashes};
+use super::text;
+use skrifa::outline::OutlinePen;
+use tiny_skia::{
+    Color, FillRule, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, Rect, Stroke as Line,
+    StrokeDash, Transform,
+};
 
-/// An SVG that cannot be turned into a PNG.
+/// A figure that cannot be drawn as PNG.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlotError {
-    /// It is no SVG.
-    #[error("the figure cannot be read as SVG: {0}")]
-    Svg(String),
     /// It is empty or too large.
     #[error("a figure of {width} by {height} pixels cannot be drawn")]
     Size {
@@ -29,131 +26,253 @@ pub enum PlotError {
     Png(String),
 }
 
-/// DejaVu Sans 2.37, the Latin, Greek and mathematical characters of it.
-static FONT: &[u8] = include_bytes!("font/DejaVuSans.ttf");
+/// Pixels a point: 288 an inch, for print.
+const ZOOM: f32 = 4.0;
 
-/// SVG takes a point as 4/3 pixels; three times that prints at 288 pixels an inch.
-const ZOOM: f32 = 3.0;
-
-static OPTIONS: LazyLock<Options<'static>> = LazyLock::new(|| {
-    let mut fonts = fontdb::Database::new();
-    fonts.load_font_data(FONT.to_vec());
-    fonts.set_sans_serif_family("DejaVu Sans");
-    Options {
-        font_family: "DejaVu Sans".into(),
-        fontdb: Arc::new(fonts),
-        ..Options::default()
+/// The canvas on white as PNG; width and height in points.
+pub(super) fn png(canvas: &Canvas, width: f64, height: f64) -> Result<Vec<u8>, PlotError> {
+    let [width, height] = [width, height].map(|side| (side as f32 * ZOOM).ceil() as u32);
+    let no_size = PlotError::Size { width, height };
+    let mut painter = Painter::new(width, height).ok_or(no_size)?;
+    for element in &canvas.elements {
+        painter.draw(element);
     }
-});
-
-/// An SVG of this module as PNG, 288 pixels an inch.
-///
-/// # Errors
-/// [`PlotError`] for what is no SVG, or too large to draw.
-pub fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
-    let tree = Tree::from_str(svg, &OPTIONS).map_err(|error| PlotError::Svg(error.to_string()))?;
-    let size = tree.size();
-    let [width, height] = [size.width(), size.height()].map(|side| (side * ZOOM).ceil() as u32);
-    let mut pixels = Pixmap::new(width, height).ok_or(PlotError::Size { width, height })?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(ZOOM, ZOOM),
-        &mut pixels.as_mut(),
-    );
-    pixels
-        .encode_png()
-        .map_err(|error| PlotError::Png(error.to_string()))
+    let written = painter.pixels.encode_png();
+    written.map_err(|error| PlotError::Png(error.to_string()))
 }
 
-/// Width of a text at a font size, both in the same unit.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    if text.chars().all(|c| NUMERIC.contains(c)) {
-        return advance(text) * size;
+/// Pixels, and the window that is drawn in.
+struct Painter {
+    pixels: Pixmap,
+    window: Mask,
+    is_clipped: bool,
+}
+
+impl Painter {
+    fn new(width: u32, height: u32) -> Option<Self> {
+        let mut pixels = Pixmap::new(width, height)?;
+        pixels.fill(Color::WHITE);
+        Some(Self {
+            pixels,
+            window: Mask::new(width, height)?,
+            is_clipped: false,
+        })
     }
-    WIDTHS.with_borrow_mut(|widths| match widths.get(text) {
-        Some(width) => width * size,
-        None => {
-            let width = laid_out(text);
-            if widths.len() >= MOST_WIDTHS {
-                widths.clear();
+
+    fn draw(&mut self, element: &Element) {
+        match element {
+            Element::Clip(window) => self.clip(window),
+            Element::Unclip => self.is_clipped = false,
+            Element::Path {
+                points,
+                colour,
+                width,
+                stroke,
+            } => {
+                let dashes = StrokeDash::new(dashes(*stroke).to_vec(), 0.0);
+                self.line(polyline(points, false), *colour, *width, dashes);
             }
-            widths.insert(text.into(), width);
-            width * size
+            Element::Polygon {
+                corners,
+                outline,
+                fill,
+            } => {
+                let path = polyline(corners, true);
+                if let Some((colour, opacity)) = fill {
+                    self.fill(path.clone(), paint(*colour, *opacity), scaled());
+                }
+                if let Some((colour, width)) = outline {
+                    self.line(path, *colour, *width, None);
+                }
+            }
+            Element::Circle {
+                centre: [x, y],
+                radius,
+                outline,
+                fill,
+            } => {
+                let path = PathBuilder::from_circle(*x as f32, *y as f32, *radius as f32);
+                let inside = fill.map_or_else(white, |colour| paint(colour, 1.0));
+                self.fill(path.clone(), inside, scaled());
+                self.line(path, *outline, RING, None);
+            }
+            Element::Text {
+                at: [x, y],
+                anchor,
+                direction,
+                size,
+                text,
+            } => {
+                let mut outlines = Outlines(PathBuilder::new());
+                text::draw(text, *size as f32, &mut outlines);
+                let back = match anchor {
+                    Anchor::Start => 0.0,
+                    Anchor::Middle => -0.5,
+                    Anchor::End => -1.0,
+                } * text::text_width(text, *size);
+                let turn = match direction {
+                    Direction::Right => 0.0,
+                    Direction::Up => -90.0,
+                };
+                let place = scaled()
+                    .pre_translate(*x as f32, *y as f32)
+                    .pre_rotate(turn)
+                    .pre_translate(back as f32, 0.0);
+                self.fill(outlines.0.finish(), paint(Colour::Black, 1.0), place);
+            }
         }
-    })
+    }
+
+    fn clip(&mut self, [x, y, width, height]: &[f64; 4]) {
+        self.window.clear();
+        let [x, y, width, height] = [x, y, width, height].map(|value| *value as f32);
+        if let Some(window) = Rect::from_xywh(x, y, width, height) {
+            let path = PathBuilder::from_rect(window);
+            self.window
+                .fill_path(&path, FillRule::Winding, true, scaled());
+        }
+        self.is_clipped = true;
+    }
+
+    /// Fills a path; there is none where it has no area.
+    fn fill(&mut self, path: Option<Path>, paint: Paint<'_>, place: Transform) {
+        if let Some(path) = path {
+            let window = self.is_clipped.then_some(&self.window);
+            self.pixels
+                .fill_path(&path, &paint, FillRule::Winding, place, window);
+        }
+    }
+
+    fn line(&mut self, path: Option<Path>, colour: Colour, width: f64, dash: Option<StrokeDash>) {
+        if let Some(path) = path {
+            let line = Line {
+                width: width as f32,
+                line_join: LineJoin::Round,
+                dash,
+                ..Line::default()
+            };
+            let window = self.is_clipped.then_some(&self.window);
+            self.pixels
+                .stroke_path(&path, &paint(colour, 1.0), &line, scaled(), window);
+        }
+    }
 }
 
-thread_local! {
-    /// Widths of texts in parts of the font size: legends come again, and layout takes its time.
-    static WIDTHS: RefCell<HashMap<String, f64>> = RefCell::default();
+fn scaled() -> Transform {
+    Transform::from_scale(ZOOM, ZOOM)
 }
 
-/// Texts whose widths are kept.
-const MOST_WIDTHS: usize = 1000;
-
-/// Width of a text in parts of the font size, as usvg lays it out.
-fn laid_out(text: &str) -> f64 {
-    let escaped = printable(text).replace('&', "&amp;").replace('<', "&lt;");
-    let svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\">\
-         <text font-family=\"DejaVu Sans\" font-size=\"100\">{escaped}</text></svg>"
-    );
-    let width =
-        Tree::from_str(&svg, &OPTIONS).map_or(0.0, |tree| tree.root().abs_bounding_box().width());
-    f64::from(width) / 100.0
+fn paint(colour: Colour, opacity: f64) -> Paint<'static> {
+    let [red, green, blue] = colour.rgb();
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(red, green, blue, (255.0 * opacity).round() as u8);
+    paint
 }
 
-/// Characters of numbers. No two of them are moved together by the font, so that their advances
-/// are all there is to know, a hundred times sooner than by laying them out.
-const NUMERIC: &str = "0123456789.−⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
+fn white() -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color(Color::WHITE);
+    paint
+}
 
-/// Sum of the advances of all characters, in parts of the font size.
-fn advance(text: &str) -> f64 {
-    let Ok(font) = FontRef::new(FONT) else {
-        return 0.0;
-    };
-    let glyphs = font.charmap();
-    let metrics = font.glyph_metrics(Size::new(1.0), LocationRef::default());
-    let width = |c| metrics.advance_width(glyphs.map(c)?);
-    text.chars().filter_map(width).map(f64::from).sum()
+fn polyline(points: &[[f64; 2]], is_closed: bool) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for (k, [x, y]) in points.iter().enumerate() {
+        match k {
+            0 => path.move_to(*x as f32, *y as f32),
+            _ => path.line_to(*x as f32, *y as f32),
+        }
+    }
+    if is_closed {
+        path.close();
+    }
+    path.finish()
+}
+
+/// Outlines of glyphs; those of the font have y pointing up.
+struct Outlines(PathBuilder);
+
+impl OutlinePen for Outlines {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.0.move_to(x, -y);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.0.line_to(x, -y);
+    }
+
+    fn quad_to(&mut self, cx0: f32, cy0: f32, x: f32, y: f32) {
+        self.0.quad_to(cx0, -cy0, x, -y);
+    }
+
+    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
+        self.0.cubic_to(cx0, -cy0, cx1, -cy1, x, -y);
+    }
+
+    fn close(&mut self) {
+        self.0.close();
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::Stroke;
 
-    #[test]
-    fn the_font_has_every_character_that_labels_use() {
-        let blank = text_width("", 10.0);
-        for c in "θ₁θ₂η̇ζΛ°·⁻⁰¹²³⁴⁵⁶⁷⁸⁹−–‖∫²Δ±≤".chars()
-        {
-            let width = text_width(&format!("|{c}|"), 10.0);
-            assert!(width > blank, "{c}");
-        }
-        assert!(text_width("wide text", 10.0) > 2.0 * text_width("text", 10.0));
+    /// Pixels of a canvas of 20 by 10 points.
+    fn painted(canvas: &Canvas) -> Pixmap {
+        Pixmap::decode_png(&png(canvas, 20.0, 10.0).unwrap()).unwrap()
+    }
+
+    fn at(pixels: &Pixmap, x: u32, y: u32) -> [u8; 3] {
+        let pixel = pixels.pixel(x, y).unwrap();
+        [pixel.red(), pixel.green(), pixel.blue()]
     }
 
     #[test]
-    fn numbers_are_as_wide_as_when_laid_out() {
-        let bars = text_width("||", 100.0);
-        for text in [
-            "",
-            "0.123456789",
-            "−30",
-            "10⁻⁵",
-            "10²³⁴",
-            "⁰¹⁶⁷⁸⁹",
-            "777.11",
-        ] {
-            // Bars make it a text that is laid out.
-            let laid_out = text_width(&format!("|{text}|"), 100.0) - bars;
-            let gap = text_width(text, 100.0) - laid_out;
-            assert!(gap.abs() < 1e-2, "{text:?}: {gap}");
-        }
+    fn lines_are_where_they_belong_and_end_at_the_window() {
+        let mut canvas = Canvas::default();
+        canvas.clip([0.0, 0.0, 10.0, 10.0]);
+        let line = [[0.0, 5.0], [20.0, 5.0]];
+        canvas.path(&line, Colour::Blue, 1.0, Stroke::Solid);
+        canvas.unclip();
+        let pixels = painted(&canvas);
+        assert_eq!([pixels.width(), pixels.height()], [80, 40]);
+        assert_eq!(at(&pixels, 10, 20), [0x00, 0x72, 0xB2]);
+        assert_eq!(at(&pixels, 10, 25), [255; 3]);
+        assert_eq!(at(&pixels, 60, 20), [255; 3]);
     }
 
     #[test]
-    fn what_is_no_svg_is_refused() {
-        assert!(matches!(png("no svg"), Err(PlotError::Svg(_))));
+    fn texts_stand_at_their_anchors() {
+        // Dark pixels left and right of the middle, above and below it.
+        let sides = |anchor, upward: bool| {
+            let mut canvas = Canvas::default();
+            match upward {
+                true => canvas.upward_text([10.0, 5.0], 6.0, "HH"),
+                false => canvas.text([10.0, 5.0], anchor, 6.0, "HH"),
+            }
+            let pixels = painted(&canvas);
+            let dark = |x: std::ops::Range<u32>, y: std::ops::Range<u32>| {
+                x.flat_map(|x| y.clone().map(move |y| (x, y)))
+                    .any(|(x, y)| at(&pixels, x, y)[0] < 128)
+            };
+            [
+                dark(0..39, 0..40),
+                dark(41..80, 0..40),
+                dark(0..80, 0..19),
+                dark(0..80, 21..40),
+            ]
+        };
+        assert_eq!(sides(Anchor::Start, false), [false, true, true, false]);
+        assert_eq!(sides(Anchor::End, false), [true, false, true, false]);
+        assert_eq!(sides(Anchor::Middle, false), [true, true, true, false]);
+        assert_eq!(sides(Anchor::Middle, true), [true, false, true, true]);
+    }
+
+    #[test]
+    fn a_figure_without_a_size_is_refused() {
+        let nothing = png(&Canvas::default(), 0.0, 10.0);
+        assert!(matches!(nothing, Err(PlotError::Size { width: 0, .. })));
     }
 }

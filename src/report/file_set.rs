@@ -6,7 +6,7 @@
 //! away first, the first of the set excepted, which is replaced, and then the others appear.
 
 use super::output::{OutputError, OutputFolder};
-use crate::plot::{self, Figure};
+use crate::plot::Figure;
 use crate::printable::printable;
 use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat};
 use std::fs::{File, Permissions};
@@ -62,13 +62,12 @@ impl FileSet {
         name: &str,
         figure: &Figure,
     ) -> Result<(), OutputError> {
-        let svg = figure.svg();
         let picture = folder.path().join(format!("{name}.png"));
-        let pixels = plot::png(&svg).map_err(|cause| OutputError::Figure {
+        let pixels = figure.png().map_err(|cause| OutputError::Figure {
             path: picture.clone(),
             cause,
         })?;
-        self.add(folder, &format!("{name}.svg"), &svg);
+        self.add(folder, &format!("{name}.svg"), &figure.svg());
         self.files.push((picture, Some(pixels)));
         Ok(())
     }
