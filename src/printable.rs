@@ -35,6 +35,15 @@ pub(crate) fn one_line(text: &str, most: usize) -> String {
     }
 }
 
+/// `text` as it may stand in XML, also between quotation marks.
+pub(crate) fn xml_text(text: &str) -> String {
+    printable(text)
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
 fn steers(c: char) -> bool {
     let turns =
         matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

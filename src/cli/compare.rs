@@ -1,6 +1,7 @@
 //! `compare`: one task by every planner.
 
 use super::failure::Failure;
+use super::plan::Page;
 use super::progress::Progress;
 use super::search::SearchArguments;
 use super::{Outcome, interrupt, rows};
@@ -104,7 +105,7 @@ fn add(
                 let own = OutputFolder::create(&own)?;
                 let optima = found.optima.as_ref().filter(|_| method == Method::ALL[0]);
                 let baselines = Baselines::of(&file.problem, &plan.discretization);
-                super::plan::add(file, plan, &baselines, optima, &own, set)?;
+                super::plan::add(file, plan, Page::Made(&baselines), optima, &own, set)?;
             }
             None if own.is_dir() => super::plan::remove(&OutputFolder::create(&own)?, set),
             None => {}

@@ -6,6 +6,7 @@ mod compare;
 mod completions;
 mod disperse;
 mod doctor;
+mod export;
 mod failure;
 mod figures;
 mod fit;
@@ -18,6 +19,7 @@ mod progress;
 mod report;
 mod reproduce;
 mod rows;
+mod sample;
 mod schema;
 mod search;
 mod show;
@@ -83,6 +85,8 @@ enum Command {
     Verify(verify::Arguments),
     Disperse(disperse::Arguments),
     Report(report::Arguments),
+    Sample(sample::Arguments),
+    Export(export::Arguments),
     Simulate(simulate::Arguments),
     Init(init::Arguments),
     Schema(schema::Arguments),
@@ -130,6 +134,8 @@ pub fn run() -> ExitCode {
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Disperse(arguments) => disperse::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
+        Command::Sample(arguments) => sample::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

@@ -2,12 +2,14 @@
 
 use super::failure::Failure;
 use super::progress::Progress;
+use super::sample::MOTION;
 use super::search::SearchArguments;
 use super::{Outcome, interrupt, terminal};
 use crate::config::{ConfigError, Overrides, ProblemFile};
 use crate::planner::{Method, Plan, PlanError, Planner, Start, Status};
 use crate::problem::Problem;
 use crate::report::{self, FileSet, OutputFolder};
+use crate::solution::export::{Samples, Times, columns, csv, even_times};
 use crate::solution::{self, Provenance};
 use crate::study::Baselines;
 use crate::study::search::{Optima, Search};
@@ -46,6 +48,12 @@ pub(super) struct Arguments {
     warm_start: Option<PathBuf>,
     #[command(flatten)]
     search: SearchArguments,
+    /// Write motion.csv as well: so many rows a second, as `sample` does
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    sample: Option<f64>,
+    /// Do not make the page report.html
+    #[arg(long)]
+    no_report: bool,
     /// Print the solution as one JSON document
     #[arg(long)]
     json: bool,
@@ -129,6 +137,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         }
     }
     let start = start.map(|found| found.start);
+    if let Some(rate) = arguments.sample {
+        let duration = file.problem.task.duration.lower;
+        even_times(rate, duration)
+            .map_err(|cause| Failure::Usage(format!("--sample {rate:?}: {cause}")))?;
+    }
 
     interrupt::listen();
     let mut progress = Progress::start(&file.problem.name, arguments.quiet);
@@ -153,7 +166,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 
     let mut set = FileSet::new();
     let baselines = Baselines::of(&file.problem, &plan.discretization);
-    let json = add(&file, &plan, &baselines, optima.as_ref(), &folder, &mut set)?;
+    let page = match arguments.no_report {
+        true => Page::Left,
+        false => Page::Made(&baselines),
+    };
+    let json = add(&file, &plan, page, optima.as_ref(), &folder, &mut set)?;
+    match arguments.sample {
+        Some(rate) => add_samples(&file, &plan, rate, &folder, &mut set),
+        None => set.without(&folder, MOTION),
+    }
     let files = set.write()?;
     let summary = || {
         let summary = report::summary(&file.problem, &plan, &baselines, &files);
@@ -204,17 +225,44 @@ pub(super) fn say(file: &ProblemFile) {
     }
 }
 
+/// Whether a page is made.
+pub(super) enum Page<'a> {
+    /// With the motion without planning beside the plan.
+    Made(&'a Baselines),
+    Left,
+}
+
+/// Adds the motion at even times to `set`; where it has none, that is said.
+fn add_samples(
+    file: &ProblemFile,
+    plan: &Plan,
+    rate: f64,
+    folder: &OutputFolder,
+    set: &mut FileSet,
+) {
+    let table = Samples::of(&file.problem, &plan.discretization, Times::Rate(rate))
+        .and_then(|samples| csv(&columns(&samples)));
+    match table {
+        Ok(table) => set.add(folder, MOTION, &table),
+        // Not at the cost of the plan.
+        Err(cause) => {
+            set.without(folder, MOTION);
+            terminal::warn(&format!("warning: no {MOTION}: {cause}"));
+        }
+    }
+}
+
 /// Adds the files of a plan to `set`; the text of `solution.json` is returned.
 pub(super) fn add(
     file: &ProblemFile,
     plan: &Plan,
-    baselines: &Baselines,
+    page: Page<'_>,
     optima: Option<&Optima>,
     folder: &OutputFolder,
     set: &mut FileSet,
 ) -> Result<String, Failure> {
     let provenance = Provenance::of(file, &plan.linear_solver);
-    let mut saved = solution::solution(&file.problem.name, plan, provenance);
+    let mut saved = solution::solution(&file.problem, plan, provenance);
     saved.search = optima.map(solution::search);
     let failure = |message: String| Failure::Format {
         path: file.path.clone(),
@@ -225,12 +273,13 @@ pub(super) fn add(
         solution::trajectory_csv(&saved.trajectory).map_err(|error| failure(error.to_string()))?;
     set.add(folder, SOLUTION, &json);
     set.add(folder, TRAJECTORY, &csv);
-    // A trajectory with values that are no numbers has nothing to show.
-    if verify::check(&file.problem, &plan.discretization).is_ok() {
-        let page = report::page(&saved, &file.problem, &plan.discretization, baselines);
-        set.add(folder, PAGE, &page);
-    } else {
-        set.without(folder, PAGE);
+    match page {
+        // A trajectory with values that are no numbers has nothing to show.
+        Page::Made(baselines) if verify::check(&file.problem, &plan.discretization).is_ok() => {
+            let page = report::page(&saved, &file.problem, &plan.discretization, baselines);
+            set.add(folder, PAGE, &page);
+        }
+        Page::Made(_) | Page::Left => set.without(folder, PAGE),
     }
     // What was said of an earlier plan.
     set.without(folder, VERIFICATION);
@@ -239,7 +288,7 @@ pub(super) fn add(
 
 /// Takes the files of an earlier plan out of `folder`.
 pub(super) fn remove(folder: &OutputFolder, set: &mut FileSet) {
-    for name in [SOLUTION, TRAJECTORY, PAGE, VERIFICATION] {
+    for name in [SOLUTION, TRAJECTORY, PAGE, VERIFICATION, MOTION] {
         set.without(folder, name);
     }
 }

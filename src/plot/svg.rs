@@ -2,7 +2,7 @@
 
 use super::Colour;
 use super::canvas::{Anchor, Canvas, Direction, Element, RING, dashes};
-use crate::printable::printable;
+use crate::printable::xml_text;
 use std::fmt::{Display, Write};
 
 /// The family named in the SVG: the one the PNG is drawn with, then common ones of its metrics.
@@ -15,7 +15,7 @@ pub(super) fn svg(canvas: &Canvas, description: &str, width: f64, height: f64) -
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"{FAMILY}\" role=\"img\">\n\
          <title>{}</title>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\"/>\n",
-        escape(description),
+        xml_text(description),
     );
     for element in &canvas.elements {
         document.push_str(&of(element));
@@ -105,7 +105,7 @@ fn of(element: &Element) -> String {
             format!(
                 "<text {place} font-size=\"{}\"{anchor}>{}</text>",
                 number(*size),
-                escape(text)
+                xml_text(text)
             )
         }
     }
@@ -143,14 +143,6 @@ fn number(value: f64) -> String {
     } else {
         text.into()
     }
-}
-
-fn escape(text: &str) -> String {
-    printable(text)
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod again;
 mod build;
 mod csv;
 pub mod dataset;
+pub mod export;
 mod json;
 pub(crate) mod number;
 mod provenance;
@@ -22,8 +23,8 @@ pub use json::to_json;
 pub use provenance::{ProblemSource, Provenance, TextFile};
 pub use read::{Saved, SolutionError, parse_solution, read_solution};
 pub use schema::{
-    CostTerm, Diagnosis, Goal, Iterate, Iteration, LimitFinding, Mesh, Metrics, Optimum, Search,
-    Solution, Timing, Trajectory, Verification,
+    CostTerm, Diagnosis, Goal, Iterate, Iteration, JointColumn, LimitFinding, Mesh, Metrics,
+    Optimum, Search, Solution, Timing, Trajectory, Verification,
 };
 pub use warm_start::{OtherRobot, WarmStart, read_warm_start, warm_start};
 pub use write::{search, solution};

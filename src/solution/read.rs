@@ -108,7 +108,7 @@ impl Saved {
     pub fn planned(file: ProblemFile, plan: Plan) -> Self {
         let provenance = Provenance::of(&file, &plan.linear_solver);
         Self {
-            solution: solution(&file.problem.name, &plan, provenance),
+            solution: solution(&file.problem, &plan, provenance),
             file,
             plan: plan.discretization,
         }

@@ -37,6 +37,12 @@ pub struct Solution {
     pub iterations: Vec<Iteration>,
     /// The final mesh.
     pub mesh: Mesh,
+    /// The joints, in the order of the columns of `trajectory`; empty in files that do not say.
+    #[serde(default)]
+    pub joints: Vec<JointColumn>,
+    /// The frames that `trajectory` is told in, in words; empty in files that do not say.
+    #[serde(default)]
+    pub frames: String,
     /// The planned motion at the nodes.
     pub trajectory: Trajectory,
     /// Figures a person asks for first.
@@ -151,6 +157,24 @@ pub struct Mesh {
     pub breakpoints: Vec<f64>,
     /// LGR points of each segment; length segments.
     pub points_per_segment: Vec<usize>,
+}
+
+/// A joint, with the units of its columns.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct JointColumn {
+    /// Name in the robot's file.
+    pub name: String,
+    /// "revolute" or "prismatic".
+    pub kind: String,
+    /// Unit of `joint_position`.
+    pub position: String,
+    /// Unit of `joint_velocity`.
+    pub velocity: String,
+    /// Unit of `control`.
+    pub control: String,
+    /// Unit of `joint_torque`.
+    pub torque: String,
 }
 
 /// The planned motion, one row a time.

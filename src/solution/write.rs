@@ -3,18 +3,24 @@
 use super::Provenance;
 use super::schema::*;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
+use crate::dynamics::{Joint, JointKind};
 use crate::ocp::Interval;
 use crate::planner::{self, Plan};
+use crate::problem::{Problem, Unit};
 use crate::refine::Record;
 use crate::study::search::Optima;
 use crate::{nlp, study, system, verify};
 
-/// The solution file of `plan` for the problem `name`.
-pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
+/// What the components of `trajectory` are told in.
+const FRAMES: &str = "base_attitude turns base axes, those of the robot's root link, into inertial axes; \
+    base_position is the root link's origin from the system's mass centre at the start, inertial axes";
+
+/// The solution file of `plan` for `problem`.
+pub fn solution(problem: &Problem, plan: &Plan, provenance: Provenance) -> Solution {
     let mesh = &plan.discretization.mesh;
     Solution {
         schema: 1,
-        name: name.into(),
+        name: problem.name.clone(),
         status: plan.status,
         method: plan.method.name().into(),
         objective: plan.objective,
@@ -31,6 +37,8 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
             breakpoints: mesh.breakpoints().to_vec(),
             points_per_segment: mesh.points_per_segment(),
         },
+        joints: problem.robot.joints().iter().map(joint).collect(),
+        frames: FRAMES.into(),
         trajectory: trajectory(&plan.trajectory),
         metrics: metrics(&plan.metrics),
         goals: goals(&plan.goals),
@@ -41,6 +49,22 @@ pub fn solution(name: &str, plan: &Plan, provenance: Provenance) -> Solution {
         timing: timing(&plan.timing),
         provenance,
         iterate: iterate(&plan.iterate),
+    }
+}
+
+fn joint(joint: &Joint) -> JointColumn {
+    let kind = joint.kind;
+    JointColumn {
+        name: joint.name.clone(),
+        kind: match kind {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic => "prismatic",
+        }
+        .into(),
+        position: Unit::position(kind).symbol().into(),
+        velocity: Unit::rate(kind).symbol().into(),
+        control: Unit::acceleration(kind).symbol().into(),
+        torque: Unit::effort(kind).symbol().into(),
     }
 }
 

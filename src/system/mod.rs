@@ -10,13 +10,14 @@
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
 //! | `starts/` | paths unlike each other to begin a search with |
-//! | `motion`, `metrics` | a motion over time, its figures, the base angle |
+//! | `motion`, `accelerations`, `metrics` | a motion over time, its figures, the base angle |
 //! | `peaks` | the largest values that the cost is about |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
 //! | `shadow_prices` | what each limit costs |
 //! | `sizes` | sizes of the task, by which presets of weights are measured |
 //! | `impossible/` | what no motion can do, found before any solve |
 
+mod accelerations;
 mod cost;
 mod derivatives;
 mod dispatch;
@@ -45,6 +46,7 @@ mod straight_line;
 mod torques;
 mod trajectory;
 
+pub use accelerations::joint_accelerations;
 pub use cost::{CostTerm, CostTerms, JointEffort, Side};
 pub use dispatch::System;
 pub use free_floating::FreeFloating;

@@ -95,7 +95,7 @@ pub fn solutions() -> Vec<String> {
         })
         .expect("a plan");
     let provenance = Provenance::of(file, &plan.linear_solver);
-    let saved = solution(&file.problem.name, &plan, provenance);
+    let saved = solution(&file.problem, &plan, provenance);
     vec![to_json(&saved).expect("JSON")]
 }
 

@@ -1,7 +1,7 @@
 //! `--solutions`: rows as `plan` writes them.
 
 use crate::cli::failure::Failure;
-use crate::cli::plan::add;
+use crate::cli::plan::{Page, add};
 use crate::config::BatchFile;
 use crate::nlp::Control;
 use crate::planner::{Method, Planner, Start};
@@ -50,7 +50,7 @@ pub(super) fn write(
         let folder = OutputFolder::create(&folder)?;
         let mut set = FileSet::new();
         let baselines = Baselines::of(problem, &plan.discretization);
-        add(file, &plan, &baselines, None, &folder, &mut set)?;
+        add(file, &plan, Page::Made(&baselines), None, &folder, &mut set)?;
         set.write()?;
     }
     Ok(())

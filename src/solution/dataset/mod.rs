@@ -29,3 +29,5 @@ pub use folder::{DataSet, Done, Writer};
 pub use lock::Shard;
 pub use manifest::Manifest;
 pub use table::{Column, Data};
+
+pub(super) use part_write::write;

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// Writes `columns` with `metadata` by key; columns are optional but those of `required`, which have
 /// a value in every row.
-pub(super) fn write<W: Write + Send>(
+pub(in crate::solution) fn write<W: Write + Send>(
     to: W,
     columns: &[Column],
     required: &[&str],

@@ -1,0 +1,69 @@
+//! `sample`: a saved plan at even times.
+
+use super::export::{outcome, read};
+use super::failure::Failure;
+use super::{Outcome, terminal};
+use crate::report::{FileSet, Lines, OutputFolder};
+use crate::solution::export::{Samples, Times, columns, csv, parquet};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Name of the file beside a solution.
+pub(super) const MOTION: &str = "motion.csv";
+
+/// Write a saved plan at even times, from the polynomials of its states and controls
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Saved solution
+    #[arg(value_name = "SOLUTION.json")]
+    solution: PathBuf,
+    /// Rows a second; the end is a row as well
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    rate: f64,
+    /// File to write, .csv or .parquet [default: motion.csv beside the solution]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// Reads, samples, writes.
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let path = &arguments.solution;
+    let beside = || path.with_file_name(MOTION);
+    let out = arguments.out.clone().unwrap_or_else(beside);
+    let name = out.file_name().and_then(|name| name.to_str());
+    let ends = out.extension().and_then(|ends| ends.to_str());
+    let (Some(name), Some(ends @ ("csv" | "parquet")), false) = (name, ends, out.is_dir()) else {
+        return Err(Failure::Usage(format!(
+            "--out {}: expected the name of a file that ends in .csv or .parquet",
+            out.display()
+        )));
+    };
+    let saved = read(path)?;
+    let samples = Samples::of(
+        &saved.file.problem,
+        &saved.plan,
+        Times::Rate(arguments.rate),
+    )
+    .map_err(|cause| Failure::Usage(format!("--rate {:?}: {cause}", arguments.rate)))?;
+    let within = match out.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let folder = OutputFolder::create(within)?;
+    let columns = columns(&samples);
+    let mut files = FileSet::new();
+    let failed = super::export::failed(path);
+    match ends {
+        "csv" => files.add(&folder, name, &csv(&columns).map_err(failed)?),
+        _ => files.add_bytes(
+            &folder,
+            name,
+            &parquet(&columns, &saved.solution).map_err(failed)?,
+        ),
+    }
+    let mut lines = Lines::default();
+    lines.add("rows", samples.t.len().to_string());
+    lines.files(&files.write()?);
+    terminal::print(&format!("{}\n\n{}", saved.solution.name, lines.finish()))?;
+    Ok(outcome(saved.solution.status))
+}
