@@ -6,6 +6,7 @@ mod program;
 mod attitude;
 mod check;
 mod endings;
+mod export;
 mod figures;
 mod first_steps;
 mod interruption;
