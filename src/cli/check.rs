@@ -1,6 +1,7 @@
 //! `check`: what a problem file was understood to say.
 
 use super::failure::Failure;
+use super::robot;
 use super::show::{by_name, rounded, show, show_interval};
 use super::{Outcome, terminal};
 use crate::config::{Overrides, ProblemFile};
@@ -17,11 +18,11 @@ use crate::system::straight_line;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Validate a problem and print what was understood; solves nothing
+/// Validate a problem, or a robot alone, and print what was understood; solves nothing
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Problem file
-    #[arg(value_name = "PROBLEM.toml")]
+    /// Problem file, or a robot's URDF file
+    #[arg(value_name = "PROBLEM.toml|ROBOT.urdf")]
     problem: PathBuf,
     /// Take the nearest inertia that a body can have for those of the robot that no body has, where
     /// rounding explains it or no joint moves them; short for --set robot.repair=inertia
@@ -31,9 +32,13 @@ pub(super) struct Arguments {
 
 /// Reads, prints.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let path = &arguments.problem;
+    if path.extension().is_some_and(|ends| ends == "urdf") {
+        return robot::check(path);
+    }
     let mut overrides = Overrides::default();
     overrides.repair(arguments.repair);
-    let file = ProblemFile::load(&arguments.problem, &overrides)?;
+    let file = ProblemFile::load(path, &overrides)?;
     terminal::print(&understood(&file))?;
     Ok(Outcome::Done)
 }
@@ -42,7 +47,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 pub fn understood(file: &ProblemFile) -> String {
     let problem = &file.problem;
     let mut lines = Lines::default();
-    robot(&mut lines, file);
+    of_robot(&mut lines, file);
     task(&mut lines, problem);
     limits(&mut lines, problem);
     cost(&mut lines, problem);
@@ -63,7 +68,7 @@ pub fn understood(file: &ProblemFile) -> String {
     )
 }
 
-fn robot(lines: &mut Lines, file: &ProblemFile) {
+fn of_robot(lines: &mut Lines, file: &ProblemFile) {
     let (problem, path) = (&file.problem, &file.robot.path);
     let robot = &problem.robot;
     let n = robot.joint_count();

@@ -1,11 +1,9 @@
 //! `init`: a problem and a robot to begin with.
 
 use super::failure::Failure;
-use super::show::{show, show_interval};
+use super::robot;
 use super::{Outcome, terminal};
-use crate::config::{Starter, StarterJoint};
-use crate::ocp::Interval;
-use crate::problem::Unit;
+use crate::config::Starter;
 use crate::report::{FileSet, Lines, OutputError, OutputFolder};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -60,7 +58,7 @@ fn own(folder: &Path, urdf: &Path) -> Result<Outcome, Failure> {
         files.push((name, bytes));
     }
     let mut lines = Lines::default();
-    list(&starter, urdf, &mut lines);
+    robot::list(&starter, urdf, &mut lines);
     write(folder, &files, &mut lines)?;
     for change in &starter.repairs {
         terminal::warn(&format!("warning: {change}"));
@@ -79,49 +77,6 @@ fn name_in_folder(urdf: &Path) -> String {
         Some(ends @ ("urdf" | "xml")) => format!("{stem}.{ends}"),
         _ => format!("{stem}.urdf"),
     }
-}
-
-/// What the robot has, and what was chosen of it.
-fn list(starter: &Starter, urdf: &Path, lines: &mut Lines) {
-    lines.add(
-        "robot",
-        format!("{}, from {}", starter.robot, urdf.display()),
-    );
-    lines.add("joints", starter.joints.len().to_string());
-    for joint in &starter.joints {
-        let StarterJoint {
-            name, kind, link, ..
-        } = joint;
-        let [lower, upper] = joint.limits.position;
-        let position = show_interval(Unit::position(*kind), &Interval::new(lower, upper));
-        let most = |unit, most: f64| match most.is_finite() {
-            true => format!(", {}", show(unit, most)),
-            false => String::new(),
-        };
-        let velocity = most(Unit::rate(*kind), joint.limits.velocity);
-        let effort = most(Unit::effort(*kind), joint.limits.effort);
-        let limits = match position.as_str() {
-            "none" => "no position limit".into(),
-            _ => position,
-        };
-        let held = match joint.locked {
-            Some(at) => format!("; held at {}", show(Unit::position(*kind), at)),
-            None => String::new(),
-        };
-        let value = format!("moves {link}: {limits}{velocity}{effort}{held}");
-        lines.add(&format!("  {name}"), value);
-    }
-    lines.add(
-        "links",
-        format!("{}: {}", starter.links.len(), starter.links.join(", ")),
-    );
-    let (root, spacecraft) = &starter.base;
-    let base = match spacecraft {
-        Some(mass) => format!("{root}, on a spacecraft of {mass} kg: give your own in [base]"),
-        None => root.clone(),
-    };
-    lines.add("base", base);
-    lines.add("end effector", &starter.end_effector);
 }
 
 /// Writes the files, none of which may be there, the first of them the problem.

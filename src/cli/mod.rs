@@ -18,6 +18,7 @@ mod plan;
 mod progress;
 mod report;
 mod reproduce;
+mod robot;
 mod rows;
 mod sample;
 mod schema;

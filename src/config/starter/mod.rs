@@ -28,6 +28,10 @@ pub struct Starter {
     pub base: (String, Option<f64>),
     /// The link at whose frame the end effector is.
     pub end_effector: String,
+    /// Mass of the robot, without that spacecraft, kg.
+    pub mass: f64,
+    /// Whether all its motion stays in one plane.
+    pub is_planar: bool,
     /// What is changed of the robot, a line each.
     pub repairs: Vec<String>,
 }
@@ -90,6 +94,8 @@ impl Starter {
             links: outline.links.into_iter().map(|(name, _)| name).collect(),
             base: (outline.root, choice.spacecraft),
             end_effector: choice.end_effector,
+            mass: read.problem.robot.total_mass() - choice.spacecraft.unwrap_or(0.0),
+            is_planar: read.problem.robot.plane().is_some(),
             repairs: read.repairs,
         }
     }
