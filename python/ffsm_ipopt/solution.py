@@ -46,6 +46,8 @@ class Iteration(NamedTuple):
     max_violation: float
     #: Objective (25).
     objective: float
+    #: J without the error of the mesh, less ``objective``: to first order, by the multipliers.
+    objective_error: float
     #: Iterations of the solver and how it ended.
     nlp_iterations: int
     nlp_status: str

@@ -170,6 +170,7 @@ fn mesh(problem: &Problem, name: &str) -> Option<Reading> {
         "global_points" => Number(mesh.global_points as f64),
         "max_iterations" => Number(mesh.max_iterations? as f64),
         "tolerance" => Number(mesh.tolerance),
+        "objective_tolerance" => Number(mesh.objective_tolerance?),
         "bound_tolerance" => Number(mesh.bound_tolerance),
         "lambda1" => Number(mesh.lambda1),
         "lambda2" => Number(mesh.lambda2),

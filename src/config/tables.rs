@@ -224,6 +224,7 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         "points",
         "tolerance",
         "bound_tolerance",
+        "objective_tolerance",
         "max_iterations",
         "max_points",
         "lambda1",
@@ -273,6 +274,10 @@ pub(super) fn mesh(item: &Item<'_>, mesh: &mut refine::Settings) -> Result<(), C
         if let Some(item) = section.get(name) {
             *value = item.positive("a finite number above zero")?;
         }
+    }
+    if let Some(item) = section.get("objective_tolerance") {
+        let value = item.positive("a finite number above zero")?;
+        mesh.objective_tolerance = Some(value);
     }
     if let Some(item) = section.get("error") {
         let expected = ErrorMeasure::ALL

@@ -2,6 +2,7 @@
 
 use super::conditioning::Conditioning;
 use super::mesh_solve::Solved;
+use super::objective_error::objective_error;
 use super::violation::{OVERSHOOT, violations};
 use super::{Bounded, Errors, Settings, Verdict, Violation, midpoint_errors};
 use crate::largest::largest;
@@ -15,9 +16,17 @@ const FAR: f64 = 0.05;
 /// more than [`OVERSHOOT`] in one segment.
 const SHORT: f64 = 1e-3;
 
+/// Part of the errors that the next mesh is to keep where J is not exact enough.
+const FALL: f64 = 0.1;
+
 /// What a solution is worth.
 pub(super) struct Assessed {
     pub errors: Errors,
+    /// See [`Record::objective_error`](super::Record::objective_error).
+    pub objective_error: f64,
+    /// The tolerance that the next mesh is to meet: where J is not exact enough yet, below the errors of this
+    /// one.
+    pub next_tolerance: f64,
     /// Bounds exceeded between the nodes, by segments.
     pub outside: Vec<Vec<Violation>>,
     /// Those of `outside` that another mesh removes or makes shorter.
@@ -63,9 +72,21 @@ impl<'a, O: Ocp> Assessor<'a, O> {
             true => violation.lasts / duration,
             false => violation.relative,
         };
+        let objective_error = objective_error(self.ocp, solved);
+        let mut verdict = self.verdict(solved, errors.max(), &outside, &removable);
+        let mut next_tolerance = self.settings.tolerance;
+        let is_inexact = |part: f64| !(objective_error.abs() <= part * solved.objective.abs());
+        if self.settings.objective_tolerance.is_some_and(is_inexact) {
+            next_tolerance = next_tolerance.min(FALL * errors.max());
+            if verdict.is_converged() {
+                verdict = Verdict::AboveTolerance;
+            }
+        }
         Assessed {
             left_to_remove: largest(removable.iter().flatten().map(left_to_remove)),
-            verdict: self.verdict(solved, errors.max(), &outside, &removable),
+            verdict,
+            objective_error,
+            next_tolerance,
             errors,
             outside,
             removable,

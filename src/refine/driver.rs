@@ -188,7 +188,7 @@ impl<O: Ocp> Refinement<'_, O> {
                         structure: &structure,
                         structure_failed,
                         facts: Some(&facts),
-                        tolerance: self.settings.tolerance,
+                        tolerance: assessed.next_tolerance,
                     })
                 })
                 .flatten();
@@ -291,6 +291,7 @@ impl<O: Ocp> Refinement<'_, O> {
             max_violation: largest(outside.map(|v| v.relative)),
             removable_violation: assessed.left_to_remove,
             objective: solved.objective,
+            objective_error: assessed.objective_error,
             nlp_iterations: solved.nlp_iterations,
             nlp_status: solved.status,
             verdict: assessed.verdict,

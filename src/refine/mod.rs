@@ -31,6 +31,7 @@ mod law;
 mod laws;
 mod mesh_solve;
 mod method;
+mod objective_error;
 mod outcome;
 mod quadrature;
 mod record;

@@ -41,6 +41,9 @@ pub struct Record {
     pub removable_violation: f64,
     /// Objective (25).
     pub objective: f64,
+    /// J without the error of the mesh, less `objective`: to first order, by the multipliers. NaN where a
+    /// function is, or the solver left no multipliers.
+    pub objective_error: f64,
     /// Iterations of the solver.
     pub nlp_iterations: u32,
     /// How the solver ended.

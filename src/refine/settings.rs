@@ -65,6 +65,9 @@ pub struct Settings {
     pub points: usize,
     /// Tolerance ε_d on the largest error (28). Default 1e-5.
     pub tolerance: f64,
+    /// Part of |J| within which the estimated error of J, [`Record::objective_error`](super::Record::objective_error),
+    /// has to be as well. Default `None`: whatever it is.
+    pub objective_tolerance: Option<f64>,
     /// What that error is measured in. Default the scale of each state.
     pub error: ErrorMeasure,
     /// Part of a bound's size by which states and path rows may exceed it between the nodes before
@@ -95,6 +98,7 @@ impl Default for Settings {
             segments: 10,
             points: 5,
             tolerance: 1e-5,
+            objective_tolerance: None,
             error: ErrorMeasure::Relative,
             bound_tolerance: 1e-3,
             max_iterations: None,
@@ -141,6 +145,10 @@ impl Settings {
         }
         let above_zero = [
             ("tolerance", self.tolerance),
+            (
+                "objective_tolerance",
+                self.objective_tolerance.unwrap_or(1.0),
+            ),
             ("bound_tolerance", self.bound_tolerance),
             ("lambda1", self.lambda1),
             ("lambda2", self.lambda2),

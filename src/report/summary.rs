@@ -10,7 +10,7 @@ use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
 use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Status};
 use crate::problem::Problem;
-use crate::refine::Verdict;
+use crate::refine::{Record, Verdict};
 use crate::solution;
 use crate::study::{BaseMotion, Baselines};
 use crate::system::shadow_prices;
@@ -95,6 +95,9 @@ fn quality(lines: &mut Lines, plan: &Plan) {
             "of the problem; above the planner's own, ∫‖η̇‖² + {BASE_RATE_REGULARIZATION:?} ∫‖u‖²"
         );
         lines.add("", own);
+    }
+    if let Some(error) = plan.iterations.last().and_then(objective_error) {
+        lines.add("error of J", error);
     }
     lines.add("largest error", error);
     lines.add("mesh", size);
@@ -228,6 +231,14 @@ fn goals(lines: &mut Lines, problem: &Problem, plan: &Plan) {
         };
         lines.add("end effector", off + allowed);
     }
+}
+
+/// What the mesh leaves of J, where that is known.
+fn objective_error(last: &Record) -> Option<String> {
+    let error = last.objective_error;
+    error
+        .is_finite()
+        .then(|| format!("{error:+.1e} to go, by the multipliers"))
 }
 
 /// One row a mesh iteration.

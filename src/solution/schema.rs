@@ -120,6 +120,10 @@ pub struct Optimum {
     pub status: Option<Status>,
 }
 
+fn nan() -> f64 {
+    f64::NAN
+}
+
 /// One mesh iteration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -140,6 +144,9 @@ pub struct Iteration {
     /// Objective (25).
     #[serde(with = "number")]
     pub objective: f64,
+    /// J without the error of the mesh, less `objective`: to first order, by the multipliers.
+    #[serde(with = "number", default = "nan")]
+    pub objective_error: f64,
     /// Iterations of the solver.
     pub nlp_iterations: u32,
     /// How the solver ended, in words.

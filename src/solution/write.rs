@@ -113,6 +113,7 @@ fn iteration(record: &Record) -> Iteration {
         quadrature_error: record.quadrature_error,
         max_violation: record.max_violation,
         objective: record.objective,
+        objective_error: record.objective_error,
         nlp_iterations: record.nlp_iterations,
         nlp_status: record.nlp_status.describe().into(),
         seconds: record.time.as_secs_f64(),
