@@ -41,3 +41,9 @@ def _state(random: np.random.Generator, model: Model) -> np.ndarray:
     x = random.uniform(-1.0, 1.0, model.states)
     x[a : a + n] *= np.pi
     return x
+
+
+if __name__ == "__main__":
+    config = Path(__file__).parents[2] / "config"
+    for name in ("table1-relaxed", "table1-smooth", "chaser-7dof"):
+        check(config / f"{name}.toml")

@@ -73,8 +73,7 @@ class Model:
             q = self.start[a : a + n] + np.outer(blend, move)
             return q, np.outer(slope, move) / total, np.outer(bend, move) / total**2
 
-        # The base by the trapezoidal rule in the plane, where its rate does not depend on it, and by
-        # the explicit midpoint rule in space.
+        # The base by the midpoint rule. In the plane its rate does not depend on it: all at once.
         grid = np.linspace(0.0, 1.0, 401)
         middle = 0.5 * (grid[:-1] + grid[1:])
         q, rate, control = at(middle)
@@ -87,9 +86,9 @@ class Model:
         else:
             for k in range(len(middle)):
                 x = np.concatenate([eta[k], q[k], rate[k]])
-                eta[k + 1] = eta[k] + step * np.array(
-                    self.node(x, control[k], parameters)[1]
-                ).ravel()
+                eta[k + 1] = (
+                    eta[k] + step * np.array(self.node(x, control[k], parameters)[1]).ravel()
+                )
         etas = np.column_stack([np.interp(fractions, grid, eta[:, i]) for i in range(a)])
         q, rate, control = at(np.asarray(fractions))
         return np.hstack([etas, q, rate]), control
@@ -185,6 +184,4 @@ def _rates(eta: ca.SX, omega: ca.SX) -> ca.SX:
     """Rates of roll, pitch and yaw at the angular velocity `omega` in axes of the base."""
     s, c = ca.sin(eta[0]), ca.cos(eta[0])
     turning = (s * omega[1] + c * omega[2]) / ca.cos(eta[1])
-    return ca.vertcat(
-        omega[0] + ca.sin(eta[1]) * turning, c * omega[1] - s * omega[2], turning
-    )
+    return ca.vertcat(omega[0] + ca.sin(eta[1]) * turning, c * omega[1] - s * omega[2], turning)

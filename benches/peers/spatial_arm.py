@@ -89,8 +89,7 @@ def dynamics(robot: robots.Robot, theta: ca.SX, rate: ca.SX) -> tuple[ca.SX, ca.
     levers = [ca.cross(pivot, a) for pivot, a in zip(pivots, axes, strict=True)]
     linear = [ca.cross(a, moment[i]) + mass[i] * levers[i] for i, a in enumerate(axes)]
     angular = [
-        ca.mtimes(inertia[i], a) + ca.cross(moment[i], levers[i])
-        for i, a in enumerate(axes)
+        ca.mtimes(inertia[i], a) + ca.cross(moment[i], levers[i]) for i, a in enumerate(axes)
     ]
     coupling = [angular[i] - ca.cross(center, linear[i]) for i in range(n)]
     carried = [ca.mtimes(inverse, column) for column in coupling]

@@ -46,38 +46,22 @@ class Mesh:
         nodes, weights, self.derivative = radau(self.degree)
         self.points = self.segments * self.degree
         self.half = 0.5 * self.model.duration / self.segments
-        self.weights = np.tile(self.half * weights, self.segments)
+        self.weights = ca.DM(np.tile(self.half * weights, self.segments))
         starts = np.arange(self.segments)[:, None]
-        self.fractions = np.append(
-            ((starts + 0.5 * (nodes + 1.0)) / self.segments).ravel(), 1.0
-        )
+        self.fractions = np.append(((starts + 0.5 * (nodes + 1.0)) / self.segments).ravel(), 1.0)
         model = self.model
         self.size = self.points * (model.states + model.joints) + model.states
         self.row_count = self.points * (model.states + model.limited)
 
     def split(self, x: Matrix) -> tuple[Matrix, Matrix]:
-        """States, a column a point and one at the end, and controls."""
-        n, m = self.model.states, self.model.joints
-        nodes = ca.reshape(x[: self.points * (n + m)], n + m, self.points)
-        return ca.horzcat(nodes[:n, :], x[self.points * (n + m) :]), nodes[n:, :]
-
-    def rows(self, states: Matrix, rates: Matrix, base: Matrix) -> Matrix:
-        """Defects and, where it has limits, the base's rate, as one column."""
-        d, slope = self.degree, ca.DM(self.derivative).T
-        slopes = [
-            ca.mtimes(states[:, s * d : (s + 1) * d + 1], slope) for s in range(self.segments)
-        ]
-        defects = ca.horzcat(*slopes) - self.half * rates
-        return ca.vec(ca.vertcat(defects, base) if self.model.limited else defects)
-
-    def integral(self, running: Matrix) -> Matrix:
-        """Of the running cost."""
-        return ca.mtimes(running, ca.DM(self.weights))
+        """States and controls, a column a point, and the last state."""
+        width = self.model.states + self.model.joints
+        inner = self.points * width
+        return ca.reshape(x[:inner], width, self.points), x[inner:]
 
     def differentiation(self) -> ca.DM:
         """The constant part of the rows' Jacobian."""
         n, m, d = self.model.states, self.model.joints, self.degree
-        matrix = ca.DM(self.row_count, self.size)
         height, width = n + self.model.limited, n + m
         row, column, value = [], [], []
         for k in range(self.points):
@@ -86,8 +70,7 @@ class Mesh:
                 row += [k * height + i for i in range(n)]
                 column += [(first + j) * width + i for i in range(n)]
                 value += [self.derivative[k % d, j]] * n
-        matrix = ca.DM.triplet(row, column, ca.DM(value), self.row_count, self.size)
-        return matrix
+        return ca.DM.triplet(row, column, ca.DM(value), self.row_count, self.size)
 
     def arguments(self, model: Model, parameters: Any = ()) -> dict[str, Array]:
         """Start and bounds for the solver; the ends are fixed by their bounds."""

@@ -6,6 +6,8 @@ whether its building counts.
 
 from __future__ import annotations
 
+import hashlib
+import statistics
 import subprocess
 import time
 from collections.abc import Callable
@@ -14,9 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import casadi as ca
-import numpy as np
 
-from model import Array, Model
+from model import Model
 from transcription import Mesh
 
 OPTIONS = {
@@ -28,104 +29,111 @@ OPTIONS = {
     "ipopt.mumps_pivot_order": 0,
     # Multipliers of parameters are nobody's wish here.
     "calc_lam_p": False,
+    "no_nlp_grad": True,
 }
-COMPILER = ["gcc", "-O3", "-march=native", "-fPIC", "-shared"]
+COMPILER = ["gcc", "-O3", "-march=native", "-fPIC", "-shared", "-w"]
 
-Form = Callable[[Model, Mesh], tuple[dict[str, Any], dict[str, Any]]]
+Expressions = dict[str, Any]
+Form = Callable[[Model, Mesh], tuple[Expressions, dict[str, ca.Function]]]
 
 
-def whole(model: Model, mesh: Mesh) -> tuple[dict[str, Any], dict[str, Any]]:
+def whole(model: Model, mesh: Mesh) -> tuple[Expressions, dict[str, ca.Function]]:
     """All nodes written out as one scalar expression; CasADi's derivatives."""
     x, p = ca.SX.sym("x", mesh.size), ca.SX.sym("p", model.parameters)
-    states, controls = mesh.split(x)
-    rates, base, running = model.node.map(mesh.points)(states[:, :-1], controls, p)
-    rows = mesh.rows(states, rates, base)
-    cost = mesh.integral(running) + model.ends(model.start, states[:, -1], p)
-    cost, rows = ca.cse([cost, rows])
-    return {"x": x, "p": p, "f": cost, "g": rows}, {}
+    nodes, last = mesh.split(x)
+    rows, running = node(model, mesh).map(mesh.points)(nodes, p)
+    cost = ca.mtimes(running, mesh.weights) + model.ends(model.start, last, p)
+    # Subexpressions of a node are shared already, and nodes share none.
+    defects = ca.mtimes(mesh.differentiation(), x) + ca.vec(rows)
+    return {"x": x, "p": p, "f": cost, "g": defects}, {}
 
 
-def mapped(model: Model, mesh: Mesh) -> tuple[dict[str, Any], dict[str, Any]]:
+def mapped(model: Model, mesh: Mesh) -> tuple[Expressions, dict[str, ca.Function]]:
     """Nodes as calls of one function; CasADi's derivatives."""
     x, p = ca.MX.sym("x", mesh.size), ca.MX.sym("p", model.parameters)
-    states, controls = mesh.split(x)
-    nodes = model.node.map("nodes", "serial", mesh.points, [2], [])
-    rates, base, running = nodes(states[:, :-1], controls, p)
-    rows = mesh.rows(states, rates, base)
-    cost = mesh.integral(running) + model.ends(model.start, states[:, -1], p)
-    return {"x": x, "p": p, "f": cost, "g": rows}, {}
+    nodes, last = mesh.split(x)
+    rows, running = _each(node(model, mesh), mesh)(nodes, p)
+    cost = ca.mtimes(running, mesh.weights) + model.ends(model.start, last, p)
+    defects = ca.mtimes(mesh.differentiation(), x) + ca.vec(rows)
+    return {"x": x, "p": p, "f": cost, "g": defects}, {}
 
 
-def by_node(model: Model, mesh: Mesh) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Derivatives of one node as functions, put together by hand.
+def by_node(model: Model, mesh: Mesh) -> tuple[Expressions, dict[str, ca.Function]]:
+    """The same with derivatives put together from those of one node.
 
-    The Lagrangian's Hessian is a block a node and one of the last state, and the Jacobian is that of
-    the differentiation plus a block a node: the nodes' values, one after another, are the values of
-    a block-diagonal matrix.
+    The Lagrangian's Hessian is a block a node and one of the last state, and the Jacobian is the
+    differentiation and a block a node: the nodes' values, one after another, are the values of a
+    block-diagonal matrix.
     """
     nlp, _ = mapped(model, mesh)
-    n, m, points = model.states, model.joints, mesh.points
-    z, p = ca.SX.sym("z", n + m), ca.SX.sym("p", model.parameters)
-    rates, base, running = model.node(z[:n], z[n:], p)
-    limited = [base] if model.limited else []
-    rows = ca.vertcat(-mesh.half * rates, *limited)
-    last = ca.SX.sym("last", n)
+    one = node(model, mesh)
+    z, p, last = (
+        ca.SX.sym("z", one.size1_in(0)),
+        ca.SX.sym("p", model.parameters),
+        ca.SX.sym("last", model.states),
+    )
+    rows, running = one(z, p)
     ends = model.ends(model.start, last, p)
+    weight, multipliers = ca.SX.sym("weight"), ca.SX.sym("multipliers", rows.numel())
+    slope = ca.densify(ca.gradient(weight * running, z))
+    jacobian = ca.jacobian(rows, z)
+    curvature = ca.triu(ca.hessian(weight * running + ca.dot(multipliers, rows), z)[0])
+    last_slope, last_curvature = ca.gradient(ends, last), ca.triu(ca.hessian(ends, last)[0])
 
-    weights, weight = ca.SX.sym("weights", rows.numel()), ca.SX.sym("weight")
-    slope = ca.densify(ca.cse(ca.gradient(weight * running, z)))
-    jacobian = ca.cse(ca.jacobian(rows, z))
-    lagrangian = weight * running + ca.dot(weights, rows)
-    hessian = ca.triu(ca.cse(ca.hessian(lagrangian, z)[0]))
-    last_hessian = ca.triu(ca.cse(ca.hessian(ends, last)[0]))
-
-    def each(name: str, inputs: list[ca.SX], output: ca.SX) -> ca.Function:
-        one = ca.Function(name, [*inputs, p], [output])
-        return one.map(f"{name}s", "serial", points, [len(inputs)], [])
+    def function(name: str, inputs: list[ca.SX], matrix: ca.SX) -> ca.Function:
+        return ca.Function(name, [*inputs, p], [ca.cse(ca.vertcat(*matrix.nonzeros()))])
 
     def blocks(pattern: ca.Sparsity, end: ca.Sparsity, values: ca.MX) -> ca.MX:
-        return ca.MX(ca.diagcat(*[pattern] * points, end), values)
+        return ca.MX(ca.diagcat(*[pattern] * mesh.points, end), values)
 
     x, q, factor = nlp["x"], nlp["p"], ca.MX.sym("lam_f")
-    nodes, final = ca.reshape(x[: points * (n + m)], n + m, points), x[points * (n + m) :]
-    lam_g = ca.MX.sym("lam_g", mesh.row_count)
-    quadrature = ca.DM(mesh.weights).T
-    lams = ca.reshape(lam_g, rows.numel(), points)
-    ends_slope = ca.Function("ends_slope", [last, p], [ca.cse(ca.gradient(ends, last))])
-    ends_values = ca.Function("ends_hessian", [last, p], [ca.vertcat(*last_hessian.nonzeros())])
+    all_multipliers = ca.MX.sym("lam_g", mesh.row_count)
+    nodes, final = mesh.split(x)
+    weights = mesh.weights.T
+    slopes = _each(function("slope", [z, weight], slope), mesh)(nodes, weights, q)
+    gradient = ca.vertcat(ca.vec(slopes), function("last_slope", [last], last_slope)(final, q))
+    values = _each(function("jacobian", [z], jacobian), mesh)(nodes, q)
+    all_slopes = mesh.differentiation() + blocks(
+        jacobian.sparsity(), ca.Sparsity(0, model.states), ca.vec(values)
+    )
+    by_column = ca.reshape(all_multipliers, rows.numel(), mesh.points)
+    values = _each(function("curvature", [z, weight, multipliers], curvature), mesh)(
+        nodes, factor * weights, by_column, q
+    )
+    final_values = factor * function("last_curvature", [last], last_curvature)(final, q)
+    hessian = blocks(
+        curvature.sparsity(), last_curvature.sparsity(), ca.vertcat(ca.vec(values), final_values)
+    )
 
-    gradient = ca.vertcat(
-        ca.vec(each("slope", [z, weight], slope)(nodes, quadrature, q)),
-        ends_slope(final, q),
-    )
-    values = each("jacobian", [z], ca.vertcat(*jacobian.nonzeros()))(nodes, q)
-    slope_of_rows = mesh.differentiation() + blocks(
-        jacobian.sparsity(), ca.Sparsity(0, n), ca.vec(values)
-    )
-    values = each("hessian", [z, weights, weight], ca.vertcat(*hessian.nonzeros()))(
-        nodes, lams, factor * quadrature, q
-    )
-    curvature = blocks(
-        hessian.sparsity(),
-        last_hessian.sparsity(),
-        ca.vertcat(ca.vec(values), factor * ends_values(final, q)),
-    )
-    given = {
-        "grad_f": ca.Function(
-            "nlp_grad_f", [x, q], [nlp["f"], gradient], ["x", "p"], ["f", "grad_f_x"]
-        ),
-        "jac_g": ca.Function(
-            "nlp_jac_g", [x, q], [nlp["g"], slope_of_rows], ["x", "p"], ["g", "jac_g_x"]
-        ),
-        "hess_lag": ca.Function(
+    def derivative(name: str, inputs: dict[str, ca.MX], outputs: dict[str, ca.MX]) -> ca.Function:
+        return ca.Function(name, [*inputs.values()], [*outputs.values()], [*inputs], [*outputs])
+
+    at = {"x": x, "p": q}
+    return nlp, {
+        "grad_f": derivative("nlp_grad_f", at, {"f": nlp["f"], "grad_f_x": gradient}),
+        "jac_g": derivative("nlp_jac_g", at, {"g": nlp["g"], "jac_g_x": all_slopes}),
+        "hess_lag": derivative(
             "nlp_hess_l",
-            [x, q, factor, lam_g],
-            [curvature],
-            ["x", "p", "lam_f", "lam_g"],
-            ["triu_hess_gamma_x_x"],
+            at | {"lam_f": factor, "lam_g": all_multipliers},
+            {"triu_hess_gamma_x_x": hessian},
         ),
     }
-    return nlp, given
+
+
+def node(model: Model, mesh: Mesh) -> ca.Function:
+    """Of states and controls of one point: its rows without the differentiation, running cost."""
+    z, p = ca.SX.sym("z", model.states + model.joints), ca.SX.sym("p", model.parameters)
+    rates, base, running = model.node(z[: model.states], z[model.states :], p)
+    rows = ca.vertcat(-mesh.half * rates, *([base] if model.limited else []))
+    return ca.Function("node", [z, p], ca.cse([rows, running]))
+
+
+def _each(function: ca.Function, mesh: Mesh) -> ca.Function:
+    """The function at every point; its last input, the parameters, is the same for all."""
+    return function.map(f"{function.name()}s", "serial", mesh.points, [function.n_in() - 1], [])
+
+
+FORMS: dict[str, Form] = {"whole": whole, "mapped": mapped, "by_node": by_node}
 
 
 @dataclass
@@ -137,7 +145,7 @@ class Programme:
     solver: ca.Function
     build: float  # seconds
 
-    def solve(self, model: Model | None = None, parameters: Any = ()) -> dict:
+    def solve(self, model: Model | None = None, parameters: Any = ()) -> dict[str, Any]:
         """Objective, seconds and iterations of one solve, of another goal or robot if given."""
         arguments = self.mesh.arguments(model or self.model, parameters)
         began = time.perf_counter()
@@ -152,31 +160,43 @@ class Programme:
             "iterations": int(stats["iter_count"]),
         }
 
+    def warm(self, solves: int) -> dict[str, Any]:
+        """Several solves in a row after one that warms up: figures with the median of the times."""
+        self.solve()
+        runs = [self.solve() for _ in range(solves)]
+        return runs[-1] | {"seconds": statistics.median(run["seconds"] for run in runs)}
+
 
 def build(model: Model, segments: int, points: int, form: Form) -> Programme:
     """The programme in one of the forms above."""
     began = time.perf_counter()
     mesh = Mesh(model, segments, points)
-    nlp, given = form(model, mesh)
-    solver = ca.nlpsol("solver", "ipopt", nlp, OPTIONS | given)
+    nlp, derivatives = form(model, mesh)
+    solver = ca.nlpsol("solver", "ipopt", nlp, OPTIONS | derivatives)
     return Programme(model, mesh, solver, time.perf_counter() - began)
 
 
 def compiled(programme: Programme, folder: Path) -> tuple[Programme, float]:
-    """The same with its functions generated as C and compiled; the seconds that took."""
-    began = time.perf_counter()
+    """The same with its functions generated as C and compiled; the seconds that took.
+
+    What was compiled before is taken again, with the seconds it took then.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    source, library = folder / "nlp.c", folder / "nlp.so"
-    # It is written to the current folder, whatever the name.
-    code = programme.solver.generate_dependencies(source.name)
-    Path(code).rename(source)
-    subprocess.run([*COMPILER, "-w", source, "-lm", "-o", library], check=True)
+    began = time.perf_counter()
+    # Not generate_dependencies, which leaves out derivatives that were given.
+    generator = ca.CodeGenerator("nlp.c")
+    generator.add(programme.solver.oracle())
+    for name in programme.solver.get_function():
+        generator.add(programme.solver.get_function(name))
+    code = generator.dump()
+    name = hashlib.sha256(" ".join([*COMPILER, code]).encode()).hexdigest()[:16]
+    library, spent = folder / f"{name}.so", folder / f"{name}.seconds"
+    if not spent.exists():
+        source = folder / f"{name}.c"
+        source.write_text(code)
+        subprocess.run([*COMPILER, source, "-lm", "-o", library], check=True)
+        spent.write_text(str(time.perf_counter() - began))
     solver = ca.nlpsol("solver", "ipopt", str(library), OPTIONS)
-    seconds = time.perf_counter() - began
-    return Programme(programme.model, programme.mesh, solver, programme.build), seconds
-
-
-def objective_and_rows(programme: Programme, x: Array) -> tuple[float, Array]:
-    """For comparing forms."""
-    f, g = programme.solver.get_function("nlp_fg")(x, [])
-    return float(f), np.array(g).ravel()
+    return Programme(programme.model, programme.mesh, solver, programme.build), float(
+        spent.read_text()
+    )

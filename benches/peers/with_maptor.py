@@ -31,17 +31,15 @@ def solve(model: Model, tolerance: float, segments: int, points: int) -> dict:
         for j, limit in enumerate(model.control)
     ]
     x, u = ca.vertcat(*states), ca.vertcat(*controls)
-    rates = model.rates(x, u)
+    rates, base, cost = model.node(x, u, [])
     phase.dynamics({state: rates[i] for i, state in enumerate(states)})
-    running = phase.add_integral(model.running(x, u))
-    if np.isfinite(model.base_rate_limit):
-        rate = model.base_rate(x)
-        for i in range(model.angles):
-            phase.path_constraints(rate[i] <= model.base_rate_limit)
-            phase.path_constraints(rate[i] >= -model.base_rate_limit)
+    running = phase.add_integral(cost)
+    for i in range(model.limited):
+        phase.path_constraints(base[i] <= model.base_rate_limit)
+        phase.path_constraints(base[i] >= -model.base_rate_limit)
     first = ca.vertcat(*(state.initial for state in states))
     last = ca.vertcat(*(state.final for state in states))
-    problem.minimize(model.ends(first, last) + running)
+    problem.minimize(model.ends(first, last, []) + running)
     phase.mesh([points] * segments, np.linspace(-1.0, 1.0, segments + 1))
     solution = maptor.solve_adaptive(
         problem,

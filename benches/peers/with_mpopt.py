@@ -18,15 +18,15 @@ def solve(model: Model, segments: int, points: int) -> dict:
     began = time.perf_counter()
     n, a = model.states, model.angles
     ocp = mp.OCP(n_states=n, n_controls=model.joints)
-    ocp.dynamics[0] = lambda x, u, t: ca.vertsplit(model.rates(x, u))
-    ocp.running_costs[0] = lambda x, u, t: model.running(x, u)
-    ocp.terminal_costs[0] = lambda xf, tf, x0, t0: model.ends(x0, xf)
+    ocp.dynamics[0] = lambda x, u, t: ca.vertsplit(model.node(x, u, [])[0])
+    ocp.running_costs[0] = lambda x, u, t: model.node(x, u, [])[2]
+    ocp.terminal_costs[0] = lambda xf, tf, x0, t0: model.ends(x0, xf, [])
     named = [i for i in range(n) if not np.isnan(model.goal[i])]
     ocp.terminal_constraints[0] = lambda xf, tf, x0, t0: [xf[i] - model.goal[i] for i in named]
-    if np.isfinite(model.base_rate_limit):
+    if model.limited:
 
         def path(x, u, t):
-            rate = model.base_rate(x)
+            rate = model.node(x, u, [])[1]
             ends = [rate[i] for i in range(a)] + [-rate[i] for i in range(a)]
             return [value - model.base_rate_limit for value in ends]
 

@@ -1,0 +1,137 @@
+"""Whole solves of one problem: this program against CasADi, yapss, maptor and mpopt."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import ours
+import with_casadi
+from model import load
+from table import Table, agree, in_turn
+
+PEERS = Path(__file__).parent
+CONFIG = PEERS.parents[1] / "config"
+# Where generated code is kept; compiling that of the arm in space takes minutes.
+COMPILED = PEERS.parents[1] / "target" / "bench" / "compiled"
+
+
+def one_programme(table: Table, program: Path, repeat: int) -> list[str]:
+    """table1-relaxed to 1e-9 on two meshes and chaser-7dof on one; what compiling took."""
+    relaxed, chaser = CONFIG / "table1-relaxed.toml", CONFIG / "chaser-7dof.toml"
+    few = max(repeat // 3, 1)
+    # Aims: CasADi's solve alone, interpreted and compiled, and its build and solve.
+    return [
+        _one(table, program, relaxed, (10, 5), repeat, 11, (5.0, None, 20.0)),
+        _one(table, program, relaxed, (100, 4), repeat, 5, (6.0, None, 40.0)),
+        _one(table, program, chaser, (10, 5), few, 3, (None, 3.0, 100.0)),
+    ]
+
+
+def _one(
+    table: Table,
+    program: Path,
+    path: Path,
+    mesh: tuple[int, int],
+    repeat: int,
+    solves: int,
+    aims: tuple[float | None, float | None, float],
+) -> str:
+    what = f"{path.stem}, {mesh[0]}×{mesh[1]}"
+    model = load(path)
+    # One expression of an arm in space is millions of operations, and no expert writes that.
+    forms = ["mapped", "by_node", "whole"] if model.angles == 1 else ["mapped", "by_node"]
+    programmes = {form: with_casadi.build(model, *mesh, with_casadi.FORMS[form]) for form in forms}
+    trial = {form: programme.warm(3)["seconds"] for form, programme in programmes.items()}
+    fastest = min(trial, key=trial.__getitem__)
+    interpreted = programmes[fastest]
+    generated, spent = with_casadi.compiled(programmes["by_node"], COMPILED)
+
+    warm = {
+        "casadi": lambda: interpreted.warm(solves),
+        "compiled": lambda: generated.warm(solves),
+    }
+    if ours.can_run_in_process(program):
+        warm["ours"] = lambda: ours.in_process(program, path, *mesh, solves)
+        sides = in_turn(repeat, **warm)
+        agree(what, sides, 1e-7)
+        alone = f"{what}, both warm"
+        table.add(
+            alone, f"CasADi ({fastest}), solve alone", sides["ours"], sides["casadi"], aims[0]
+        )
+        table.add(
+            alone, "CasADi, compiled C, solve alone", sides["ours"], sides["compiled"], aims[1]
+        )
+    else:
+        print(f"{what}: examples/time_in_process is not built, no warm times", flush=True)
+
+    trial = {form: _all_in(_cold(path, mesh, form)) for form in forms}
+    quickest = min(trial, key=trial.__getitem__)
+    sides = in_turn(
+        repeat,
+        ours=lambda: ours.one_mesh(program, path, *mesh).figures(),
+        casadi=lambda: _cold(path, mesh, quickest),
+    )
+    agree(what, sides, 1e-7)
+    process, casadi = sides["ours"].by("process"), sides["casadi"]
+    peer = f"CasADi ({quickest})"
+    cold = f"{what}, cold"
+    table.add(f"{cold}, our process", f"{peer}, build and solve", process, casadi, aims[2])
+    table.add(f"{cold}, our process", f"{peer}, process", process, casadi.by("process"), None)
+    table.add(
+        f"{cold}, within our process", f"{peer}, build and solve", sides["ours"], casadi, None
+    )
+    if model.angles == 1:
+        _yapss(table, program, path, mesh, repeat)
+    return f"| {what} | {fastest} | {quickest} | {spent:.1f} |"
+
+
+def _cold(path: Path, mesh: tuple[int, int], form: str) -> dict:
+    """CasADi in a process of its own."""
+    command = [sys.executable, "-W", "ignore", PEERS / "cold.py", path, *map(str, mesh), form]
+    run = ours.timed(command)
+    figures = json.loads(run.output)
+    return figures | {"seconds": figures["build"] + figures["solve"], "process": run.wall}
+
+
+def _all_in(figures: dict) -> float:
+    return figures["seconds"]
+
+
+def _yapss(table: Table, program: Path, path: Path, mesh: tuple[int, int], repeat: int) -> None:
+    from with_yapss import solve
+
+    model = load(path)
+    sides = in_turn(
+        max(repeat // 2, 1),
+        ours=lambda: ours.one_mesh(program, path, *mesh).figures(),
+        yapss=lambda: solve(model, *mesh),
+    )
+    what = f"{path.stem}, {mesh[0]}×{mesh[1]}"
+    agree(what, sides, 1e-7)
+    table.add(f"{what}, cold, within our process", "yapss", sides["ours"], sides["yapss"], None)
+
+
+def adaptive(table: Table, program: Path, repeat: int, quick: bool) -> None:
+    """table1-relaxed to 1e-5, against maptor to 1e-4 and mpopt's segment widths."""
+    from with_mpopt import solve as mpopt
+
+    path = CONFIG / "table1-relaxed.toml"
+    model = load(path)
+    sides = in_turn(
+        repeat,
+        ours=lambda: ours.plan(program, path).figures(),
+        mpopt=lambda: mpopt(model, 10, 5),
+    )
+    mine, what = sides["ours"], "table1-relaxed, refined to 1e-5"
+    table.add(what, "mpopt, segment widths free", mine, sides["mpopt"], 100.0)
+    if not quick:
+        from with_maptor import solve as maptor
+
+        once = in_turn(
+            1,
+            ours=lambda: ours.plan(program, path).figures(),
+            maptor=lambda: maptor(model, 1e-4, 10, 5),
+        )
+        table.add(what, "maptor to 1e-4", once["ours"], once["maptor"], 100.0)
