@@ -55,9 +55,8 @@ def main() -> None:
     check_models()
 
     points = scaling(program, quick)
-    from laws import laws
-
     from batches import batches
+    from laws import laws
     from programmes import adaptive, one_programme
 
     table = Table()
