@@ -20,10 +20,10 @@ import casadi as ca
 import numpy as np
 import pyarrow.dataset
 
-import ours
 import robot_file as robots
 import with_casadi
 from model import Array, Model, load
+from process import timed
 
 PEERS = Path(__file__).parent
 CONFIG = PEERS.parents[1] / "config"
@@ -119,7 +119,7 @@ def _by_structure(batch: Path) -> Path:
 
 def _batch(program: Path, batch: Path, out: Path, jobs: int) -> dict[str, Any]:
     command = [program, "batch", batch, "--out", out, "--jobs", str(jobs), "--quiet"]
-    process = ours.timed(command)
+    process = timed(command)
     rows = pyarrow.dataset.dataset(out).count_rows()
     return _rates(rows, process.wall * jobs, process.processor)
 

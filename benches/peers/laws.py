@@ -13,6 +13,7 @@ from typing import Any
 
 import ours
 from known import PROBLEMS
+from process import timed
 
 PEERS = Path(__file__).parent
 RELAXED = PEERS.parents[1] / "config" / "table1-relaxed.toml"
@@ -49,7 +50,7 @@ def laws(program: Path, quick: bool) -> Result:
     for name, known in PROBLEMS.items():
 
         def solved(law: str, name: str = name, tolerance: float = known.tolerance) -> dict:
-            return json.loads(ours.timed([example, name, law, str(tolerance)]).output)
+            return json.loads(timed([example, name, law, str(tolerance)]).output)
 
         rows += _problem(name, name, known.tolerance, known.optimum, solved, repeat, quick)
     return Result(_markdown(rows), rows)

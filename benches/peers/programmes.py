@@ -10,6 +10,7 @@ import ours
 import with_casadi
 from model import load
 from ocp import of_model
+from process import timed
 from table import Table, agree, in_turn
 from with_maptor import solve as maptor
 from with_mpopt import solve as mpopt
@@ -94,7 +95,7 @@ def _one(
 def _cold(path: Path, mesh: tuple[int, int], form: str) -> dict:
     """CasADi in a process of its own."""
     command = [sys.executable, "-W", "ignore", PEERS / "cold.py", path, *map(str, mesh), form]
-    run = ours.timed(command)
+    run = timed(command)
     figures = json.loads(run.output)
     return figures | {"seconds": figures["build"] + figures["solve"], "process": run.wall}
 

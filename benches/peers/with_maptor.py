@@ -15,7 +15,13 @@ from ocp import Ocp
 # It prints a table of each refinement at length, and Ipopt's own output.
 QUIET = {"ipopt.print_level": 0, "ipopt.sb": "yes", "print_time": 0}
 # As in with_casadi.py: MUMPS's own choice of ordering misleads Ipopt on finer meshes.
-SOLVER = {"ipopt.tol": 1e-9, "ipopt.mumps_pivot_order": 0, "ipopt.max_iter": 2000}
+SOLVER = {
+    "ipopt.tol": 1e-9,
+    "ipopt.mumps_pivot_order": 0,
+    "ipopt.max_iter": 2000,
+    # All nodes as one scalar expression: a tenth less time.
+    "expand": True,
+}
 
 
 def solve(ocp: Ocp, tolerance: float, segments: int, points: int) -> dict[str, Any]:
