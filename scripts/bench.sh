@@ -5,8 +5,8 @@
 # The C code that CasADi generates goes to target/bench/compiled; that of the arm in space takes gcc
 # some three minutes the first time.
 #
-#     scripts/bench.sh            everything, about ten minutes
-#     scripts/bench.sh --quick    fewer runs, without maptor: about two
+#     scripts/bench.sh            everything, about fifteen minutes
+#     scripts/bench.sh --quick    fewer runs, without maptor: about three
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . scripts/install.sh
