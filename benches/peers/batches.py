@@ -22,6 +22,7 @@ import pyarrow.dataset
 
 import robot_file as robots
 import with_casadi
+from forms import FORMS
 from model import Array, Model, load
 from process import timed
 
@@ -84,7 +85,7 @@ AIMS = {
 def _markdown(rows: dict[str, dict[str, Any]], differ: int) -> str:
     base = rows["batch, fixed mesh"]["processor"]
     lines = [
-        "| 2,000 variations of `table1-relaxed` | rows | rows a second of a core "
+        "| variations of `table1-relaxed` | rows | rows a second of a core "
         "| of processor time | ours faster by | aim |",
         "| --- | --- | --- | --- | --- | --- |",
     ]
@@ -140,8 +141,7 @@ def _read(folder: Path) -> tuple[Array, Array]:
 def _peers(values: Array, quick: bool) -> dict[str, dict[str, Any]]:
     once = load(PROBLEM, varied=_payload)
     programmes = {
-        form: with_casadi.build(once, *MESH, with_casadi.FORMS[form])
-        for form in ("by_node", "whole")
+        form: with_casadi.build(once, *MESH, FORMS[form]) for form in ("by_node", "whole")
     }
     few = values[:SAMPLE]
     fastest = min(programmes, key=lambda form: _time(_loop, programmes[form], few))
@@ -151,7 +151,7 @@ def _peers(values: Array, quick: bool) -> dict[str, dict[str, Any]]:
         "CasADi, built once, compiled C": _measured(_loop, generated, values),
         "CasADi, built once, two processes": _in_processes(2, fastest, values),
     }
-    anew = {form: _time(_anew, form, few[:3]) for form in with_casadi.FORMS}
+    anew = {form: _time(_anew, form, few[:3]) for form in FORMS}
     quickest = min(anew, key=anew.__getitem__)
     found["CasADi, built anew"] = _measured(_anew, quickest, few)
     return found
@@ -185,10 +185,7 @@ def _anew(form: str, values: Array) -> Array:
         return varied.towards(row[:2])
 
     return np.array(
-        [
-            with_casadi.build(model(row), *MESH, with_casadi.FORMS[form]).solve()["objective"]
-            for row in values
-        ]
+        [with_casadi.build(model(row), *MESH, FORMS[form]).solve()["objective"] for row in values]
     )
 
 
@@ -228,7 +225,7 @@ _programme: with_casadi.Programme
 def _start(form: str) -> None:
     global _programme
     model = load(PROBLEM, varied=_payload)
-    _programme = with_casadi.build(model, *MESH, with_casadi.FORMS[form])
+    _programme = with_casadi.build(model, *MESH, FORMS[form])
 
 
 def _one(row: Array) -> tuple[float, float]:

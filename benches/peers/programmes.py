@@ -9,6 +9,7 @@ from pathlib import Path
 
 import ours
 import with_casadi
+from forms import FORMS
 from model import load
 from ocp import of_model
 from process import timed
@@ -48,7 +49,7 @@ def _one(
     model = load(path)
     # One expression of an arm in space is millions of operations, and no expert writes that.
     forms = ["mapped", "by_node", "whole"] if model.angles == 1 else ["mapped", "by_node"]
-    built = {form: with_casadi.build(model, *mesh, with_casadi.FORMS[form]) for form in forms}
+    built = {form: with_casadi.build(model, *mesh, FORMS[form]) for form in forms}
     fastest = min(forms, key=lambda form: built[form].warm(3)["seconds"])
     generated, spent = with_casadi.compiled(built["by_node"], COMPILED)
     quickest = min(forms, key=lambda form: _anew(path, mesh, form)["seconds"])
@@ -89,7 +90,7 @@ def _one(
 def _anew(path: Path, mesh: tuple[int, int], form: str) -> dict:
     """Model and programme made and solved in this process, from the problem's file on."""
     began = time.perf_counter()
-    programme = with_casadi.build(load(path), *mesh, with_casadi.FORMS[form])
+    programme = with_casadi.build(load(path), *mesh, FORMS[form])
     return programme.solve() | {"seconds": time.perf_counter() - began}
 
 
