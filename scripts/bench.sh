@@ -2,14 +2,17 @@
 # Times the program against CasADi, yapss, maptor and mpopt from PyPI on the same problems.
 #
 # They go to target/bench/venv, which a second run uses again; the tables to out/bench/bench.{md,json}.
+# The C code that CasADi generates goes to target/bench/compiled; that of the arm in space takes gcc
+# some three minutes the first time.
 #
-#     scripts/bench.sh            everything, about ten minutes
-#     scripts/bench.sh --quick    fewer runs, without maptor: about two
+#     scripts/bench.sh            everything, about fifteen minutes
+#     scripts/bench.sh --quick    fewer runs, without maptor: about three
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . scripts/install.sh
 
 home=target/bench
+command -v gcc > /dev/null || die "needs gcc, which compiles the code that CasADi generates"
 requirements=benches/peers/requirements.txt
 
 case ${1-} in
@@ -30,8 +33,11 @@ if ! cmp -s "$requirements" "$home/installed.txt"; then
   cp "$requirements" "$home/installed.txt"
 fi
 
-cargo build --release --locked --bin ffsm-ipopt --example time_in_process
+cargo build --release --locked --bin ffsm-ipopt \
+  --example time_in_process --example known_optima_bench
 program=$(cargo metadata --format-version 1 --no-deps --locked |
   python3 -c 'import json, sys; print(json.load(sys.stdin)["target_directory"])')/release/ffsm-ipopt
+# One thread of the peers' BLAS: their fronts are too small for more.
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 MPLBACKEND=Agg PYTHONDONTWRITEBYTECODE=1 "$home/venv/bin/python" -W ignore \
   benches/peers/bench.py "$program" out/bench "$@"

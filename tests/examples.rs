@@ -4,6 +4,8 @@
 mod batch_in_code;
 #[path = "../examples/free_flying_robot.rs"]
 mod free_flying_robot;
+#[path = "../examples/known_optima_bench.rs"]
+mod known_optima_bench;
 #[path = "../examples/own_problem.rs"]
 mod own_problem;
 #[path = "../examples/periodic_orbit.rs"]
@@ -39,6 +41,11 @@ fn static_parameter_runs() {
 #[test]
 fn periodic_orbit_runs() {
     periodic_orbit::main().unwrap();
+}
+
+#[test]
+fn known_optima_bench_runs() {
+    known_optima_bench::main().unwrap();
 }
 
 #[test]

@@ -6,9 +6,9 @@ benchmarks need is read: robots without tools, goals in joint space, a fixed dur
 
 from __future__ import annotations
 
-import sys
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,25 +16,30 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "oracle"))
-import robot as robots  # noqa: E402
+import generic
+import robot_file as robots
+import spatial_arm
+import two_link
 
 Array = NDArray[np.float64]
+Dynamics = Callable[[robots.Robot, ca.SX, ca.SX], tuple[ca.SX, ca.SX, ca.SX]]
 
 
 @dataclass(frozen=True)
 class Model:
-    """States x = [η, θ, θ̇], controls u: ẋ = f(x, u), J = ends(x₀, x_f) + ∫ running(x, u)."""
+    """States x = [η, θ, θ̇], controls u: ẋ = f(x, u), J = ends(x₀, x_f) + ∫ running(x, u).
+
+    `parameters` are figures of the robot that are given at each solve; mostly there are none.
+    """
 
     name: str
     duration: float
     angles: int
     joints: int
-    rates: ca.Function
-    running: ca.Function
-    ends: ca.Function
-    base_rate: ca.Function  # empty where it has no limit
-    base_rate_limit: float
+    parameters: int
+    node: ca.Function  # (x, u, p) to the rates f, the base's rate and the running cost
+    ends: ca.Function  # (x₀, x_f, p)
+    base_rate_limit: float  # infinite where there is none
     lower: Array
     upper: Array
     control: Array
@@ -46,53 +51,75 @@ class Model:
         """Number of states."""
         return self.angles + 2 * self.joints
 
-    def guess(self, fractions: Array) -> tuple[Array, Array]:
+    @property
+    def limited(self) -> int:
+        """Rows of the base's rate that have limits."""
+        return self.angles if np.isfinite(self.base_rate_limit) else 0
+
+    def towards(self, joints: Array) -> Model:
+        """The same with another goal."""
+        goal = self.goal.copy()
+        goal[self.angles : self.angles + self.joints] = joints
+        return replace(self, goal=goal)
+
+    def guess(self, fractions: Array, parameters: Any = ()) -> tuple[Array, Array]:
         """Joints along a quintic, the base following: states and controls by rows."""
         a, n, total = self.angles, self.joints, self.duration
         move = self.goal[a : a + n] - self.start[a : a + n]
 
-        def at(p: float, eta: Array) -> tuple[Array, Array]:
+        def at(p: Array) -> tuple[Array, Array, Array]:
             blend = p**3 * (10 + p * (6 * p - 15))
             slope, bend = 30 * p**2 * (1 - p) ** 2, 60 * p * (1 - p) * (1 - 2 * p)
-            q = self.start[a : a + n] + blend * move
-            return np.concatenate([eta, q, slope * move / total]), bend * move / total**2
+            q = self.start[a : a + n] + np.outer(blend, move)
+            return q, np.outer(slope, move) / total, np.outer(bend, move) / total**2
 
-        grid, eta, path = np.linspace(0.0, 1.0, 401), self.start[:a], [self.start[:a]]
-        for p, step in zip(grid[:-1], np.diff(grid), strict=True):
-            rate = np.array(self.rates(*at(p + 0.5 * step, eta))).ravel()[:a]
-            eta = eta + rate * total * step
-            path.append(eta)
-        table = np.array(path)
-        etas = np.column_stack([np.interp(fractions, grid, table[:, i]) for i in range(a)])
-        rows = [at(p, eta) for p, eta in zip(fractions, etas, strict=True)]
-        return np.array([x for x, _ in rows]), np.array([u for _, u in rows])
+        # The base by the midpoint rule. In the plane its rate does not depend on it: all at once.
+        grid = np.linspace(0.0, 1.0, 401)
+        middle = 0.5 * (grid[:-1] + grid[1:])
+        q, rate, control = at(middle)
+        step = total / (len(grid) - 1)
+        eta = np.tile(self.start[:a], (len(grid), 1))
+        if a == 1:
+            x = np.hstack([np.zeros((len(middle), 1)), q, rate])
+            turning = np.array(self.node(x.T, control.T, parameters)[1])
+            eta[1:] += step * np.cumsum(turning, axis=1).T
+        else:
+            for k in range(len(middle)):
+                x = np.concatenate([eta[k], q[k], rate[k]])
+                eta[k + 1] = (
+                    eta[k] + step * np.array(self.node(x, control[k], parameters)[1]).ravel()
+                )
+        etas = np.column_stack([np.interp(fractions, grid, eta[:, i]) for i in range(a)])
+        q, rate, control = at(np.asarray(fractions))
+        return np.hstack([etas, q, rate]), control
 
 
-def load(path: Path) -> Model:
-    """The model of the problem in a file."""
-    text = path.read_text()
-    table = tomllib.loads(text)
+def load(path: Path, dynamics: Dynamics | None = None, varied: Varied | None = None) -> Model:
+    """The model of the problem in a file, its dynamics written by hand unless others are given."""
+    table = tomllib.loads(path.read_text())
     problem = robots.load(path)
-    n = problem.robot.moving
-    planar = all(j.axis == (0.0, 0.0, 1.0) and j.rpy == robots.ZERO for j in problem.robot.joints)
+    arm, parameters = (problem.robot, ca.SX(0, 1)) if varied is None else varied(problem.robot)
+    n = arm.moving
+    planar = all(j.axis == (0.0, 0.0, 1.0) and j.rpy == robots.ZERO for j in arm.joints)
     a = 1 if planar else 3
     limits, weights = table["limits"], table["cost"]
 
     x, u = ca.SX.sym("x", a + 2 * n), ca.SX.sym("u", n)
     eta, theta, rate = x[:a], x[a : a + n], x[a + n :]
-    center, omega, bias = _dynamics(problem.robot, theta, rate)
-    attitude_rate = omega[2] if planar else _rates(eta, omega)
-    rates = ca.Function("rates", [x, u], [ca.vertcat(attitude_rate, rate, u - bias)])
+    center, omega, bias = (dynamics or by_hand(arm))(arm, theta, rate)
+    attitude_rate = omega if planar else _rates(eta, omega)
     running = (
         _weight(weights, "base_rate") * ca.sumsqr(attitude_rate)
         + _weight(weights, "joint_rate") * ca.sumsqr(rate)
         + _weight(weights, "control") * ca.sumsqr(u)
     )
-    place = ca.Function("place", [x], [-ca.mtimes(_rotation(eta, planar), center)])
+    outputs = ca.cse([ca.vertcat(attitude_rate, rate, u - bias), attitude_rate, running])
+    place = ca.Function("place", [x, parameters], [-ca.mtimes(_rotation(eta, planar), center)])
     first, last = ca.SX.sym("first", a + 2 * n), ca.SX.sym("last", a + 2 * n)
+    moved = place(last, parameters) - place(first, parameters)
     ends = _weight(weights, "final_base_attitude") * ca.sumsqr(last[:a]) + _weight(
         weights, "final_base_position"
-    ) * ca.sumsqr(place(last) - place(first))
+    ) * ca.sumsqr(moved)
 
     bound = np.full(a + 2 * n, np.inf)
     bound[:a] = limits.get("base_attitude", np.inf)
@@ -105,10 +132,9 @@ def load(path: Path) -> Model:
         float(table["task"]["duration"]),
         a,
         n,
-        rates,
-        ca.Function("running", [x, u], [running]),
-        ca.Function("ends", [first, last], [ends]),
-        ca.Function("base_rate", [x], [attitude_rate]),
+        parameters.numel(),
+        ca.Function("node", [x, u, parameters], outputs),
+        ca.Function("ends", [first, last, parameters], [ca.cse(ends)]),
         float(limits.get("base_rate", np.inf)),
         -bound,
         bound,
@@ -118,192 +144,44 @@ def load(path: Path) -> Model:
     )
 
 
+Varied = Callable[[robots.Robot], tuple[robots.Robot, ca.SX]]
+"""Makes figures of a robot symbols: the robot with them, and the column of them."""
+
+
+def by_hand(robot: robots.Robot) -> Dynamics:
+    """The model written by hand for a robot of this kind."""
+    for written in (two_link, spatial_arm):
+        if written.fits(robot):
+            return written.dynamics
+    raise ValueError(f"no model of {robot.name} is written by hand")
+
+
+def in_the_plane(robot: robots.Robot, theta: ca.SX, rate: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
+    """The generic dynamics of a planar robot, vectors of the plane only."""
+    center, omega, bias = generic.dynamics(robot, theta, rate)
+    return center[:2], omega[2], bias
+
+
 def _weight(weights: dict[str, Any], key: str) -> float:
     return float(weights.get(key, 0.0))
 
 
-def _about(axis: str, angle: ca.SX) -> ca.SX:
-    c, s = ca.cos(angle), ca.sin(angle)
-    rows = {
-        "x": [[1, 0, 0], [0, c, -s], [0, s, c]],
-        "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]],
-        "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]],
-    }[axis]
-    return ca.vertcat(*(ca.horzcat(*row) for row in rows))
-
-
 def _rotation(eta: ca.SX, planar: bool) -> ca.SX:
-    """R = Rz Ry Rx."""
+    """Of the base: R(η) in the plane, Rz Ry Rx in space."""
     if planar:
-        return _about("z", eta)
-    return ca.mtimes([_about("z", eta[2]), _about("y", eta[1]), _about("x", eta[0])])
+        c, s = ca.cos(eta), ca.sin(eta)
+        return ca.vertcat(ca.horzcat(c, -s), ca.horzcat(s, c))
+    (sr, cr), (sp, cp), (sy, cy) = ((ca.sin(v), ca.cos(v)) for v in ca.vertsplit(eta))
+    rows = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+    return ca.vertcat(*(ca.horzcat(*row) for row in rows))
 
 
 def _rates(eta: ca.SX, omega: ca.SX) -> ca.SX:
     """Rates of roll, pitch and yaw at the angular velocity `omega` in axes of the base."""
-    s, c, t = ca.sin(eta[0]), ca.cos(eta[0]), ca.tan(eta[1])
-    across = s * omega[1] + c * omega[2]
-    return ca.vertcat(omega[0] + t * across, c * omega[1] - s * omega[2], across / ca.cos(eta[1]))
-
-
-def _turn(axis: Array, angle: ca.SX) -> ca.SX:
-    """Rotation about a constant axis; its zeros stay zeros."""
-    k = ca.SX(ca.sparsify(ca.skew(ca.DM(axis))))
-    return ca.SX.eye(3) + ca.sin(angle) * k + (1 - ca.cos(angle)) * ca.mtimes(k, k)
-
-
-def _fixed(rpy: robots.Triple) -> ca.DM:
-    roll, pitch, yaw = (float(v) for v in rpy)
-    turns = [_about(a, ca.SX(v)) for a, v in (("z", yaw), ("y", pitch), ("x", roll))]
-    return ca.sparsify(ca.DM(ca.evalf(ca.mtimes(turns))), 1e-15)
-
-
-def _dynamics(robot: robots.Robot, theta: ca.SX, rate: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
-    """Mass centre, base rate ω₀ and H⁻¹Cθ̇ of the free-floating system.
-
-    Composite bodies give the mass matrix, one Newton-Euler pass without accelerations the bias;
-    the base takes the net force and moment back.
-    """
-    n = robot.moving
-    vector = lambda v: ca.SX(ca.sparsify(ca.DM([float(c) for c in v])))  # noqa: E731
-    tensor = lambda b: ca.SX(  # noqa: E731
-        ca.sparsify(ca.mtimes([_fixed(b.rpy), ca.DM(np.array(b.inertia)), _fixed(b.rpy).T]))
-    )
-    turn, origin, moving = [], [], []
-    axes, pivots = [], []
-    parts = [(robot.base.mass, vector(robot.base.com), tensor(robot.base))]
-    count = 0
-    for joint in robot.joints:
-        frame = (
-            (ca.SX.eye(3), ca.SX(3, 1))
-            if joint.parent is None
-            else (
-                turn[joint.parent],
-                origin[joint.parent],
-            )
-        )
-        at = frame[1] + ca.mtimes(frame[0], vector(joint.xyz))
-        axes_here = ca.mtimes(frame[0], ca.SX(_fixed(joint.rpy)))
-        before = -1 if joint.parent is None else moving[joint.parent]
-        if joint.kind == "revolute":
-            axis = np.array(joint.axis) / np.linalg.norm(joint.axis)
-            axes.append((ca.mtimes(axes_here, vector(axis)), before))
-            pivots.append(at)
-            axes_here = ca.mtimes(axes_here, _turn(axis, theta[count]))
-            before = count
-            count += 1
-        elif joint.kind != "fixed":
-            raise ValueError(f"joint {joint.name}: joints of type {joint.kind} are not read here")
-        turn.append(axes_here)
-        origin.append(at)
-        moving.append(before)
-        com = at + ca.mtimes(axes_here, vector(joint.body.com))
-        inertia = ca.mtimes([axes_here, tensor(joint.body), axes_here.T])
-        parts.append((joint.body.mass, com, inertia))
-    of_joint = [-1, *moving]
-
-    composite = [
-        _composite([p for p, j in zip(parts, of_joint, strict=True) if _carries(axes, i, j)])
-        for i in range(n)
-    ]
-    mass, center, inertia = _composite(parts)
-    momenta, angular = [], []
-    for (axis, _), pivot, (m, c, tens) in zip(axes, pivots, composite, strict=True):
-        momenta.append(m * ca.cross(axis, c - pivot))
-        angular.append(ca.mtimes(tens, axis) + ca.cross(c - center, momenta[-1]))
-    coupling = ca.horzcat(*angular)
-    inverse = _inverse(inertia)
-    carried = ca.mtimes(inverse, coupling)
-    omega = -ca.mtimes(carried, rate)
-
-    h = ca.SX(n, n)
-    for i in range(n):
-        m, c, tens = composite[i]
-        j = i
-        while j >= 0:
-            about = ca.mtimes(tens, axes[i][0]) + ca.cross(c - pivots[j], momenta[i])
-            h[i, j] = h[j, i] = ca.dot(axes[j][0], about)
-            j = axes[j][1]
-    linear = ca.horzcat(*momenta)
-    h = h - ca.mtimes(linear.T, linear) / mass - ca.mtimes(coupling.T, carried)
-
-    # Newton-Euler with ω₀ and θ̇, no accelerations.
-    spin, swing, pull = [], [], []
-    for i, (axis, parent) in enumerate(axes):
-        w, dw, a, p = (
-            (omega, ca.SX(3, 1), ca.SX(3, 1), ca.SX(3, 1))
-            if parent < 0
-            else (spin[parent], swing[parent], pull[parent], pivots[parent])
-        )
-        arm = pivots[i] - p
-        spin.append(w + axis * rate[i])
-        swing.append(dw + ca.cross(w, axis * rate[i]))
-        pull.append(a + ca.cross(dw, arm) + ca.cross(w, ca.cross(w, arm)))
-    forces, moments = [ca.SX(3, 1) for _ in range(n + 1)], [ca.SX(3, 1) for _ in range(n + 1)]
-    for (m, c, tens), j in zip(parts, of_joint, strict=True):
-        w, dw, a, p = (
-            (omega, ca.SX(3, 1), ca.SX(3, 1), ca.SX(3, 1))
-            if j < 0
-            else (spin[j], swing[j], pull[j], pivots[j])
-        )
-        arm = c - p
-        force = m * (a + ca.cross(dw, arm) + ca.cross(w, ca.cross(w, arm)))
-        moment = ca.mtimes(tens, dw) + ca.cross(w, ca.mtimes(tens, w)) + ca.cross(c, force)
-        forces[j + 1] += force
-        moments[j + 1] += moment
-    for i in range(n - 1, -1, -1):
-        forces[axes[i][1] + 1] += forces[i + 1]
-        moments[axes[i][1] + 1] += moments[i + 1]
-    net, moment = forces[0], moments[0]
-    alpha = -ca.mtimes(inverse, moment - ca.cross(center, net))
-    accel = -net / mass - ca.cross(alpha, center)
-    bias = []
-    for i, (axis, _) in enumerate(axes):
-        m, c, tens = composite[i]
-        push = forces[i + 1] + m * (accel + ca.cross(alpha, c))
-        about = moments[i + 1] + ca.mtimes(tens, alpha) + ca.cross(c, push - forces[i + 1])
-        bias.append(ca.dot(axis, about - ca.cross(pivots[i], push)))
-    return center, omega, _solve(h, ca.vertcat(*bias))
-
-
-def _carries(axes: list, ancestor: int, joint: int) -> bool:
-    while joint > ancestor:
-        joint = axes[joint][1]
-    return joint == ancestor
-
-
-def _composite(parts: list) -> tuple[float, ca.SX, ca.SX]:
-    mass = sum(m for m, _, _ in parts)
-    center = sum(m * c for m, c, _ in parts) / mass
-    inertia = ca.SX(3, 3)
-    for m, c, tensor in parts:
-        d = c - center
-        inertia += tensor + m * (ca.dot(d, d) * ca.SX.eye(3) - ca.mtimes(d, d.T))
-    return mass, center, inertia
-
-
-def _inverse(a: ca.SX) -> ca.SX:
-    columns = [a[:, i] for i in range(3)]
-    rows = [ca.cross(columns[(i + 1) % 3], columns[(i + 2) % 3]) for i in range(3)]
-    return ca.horzcat(*rows).T / ca.dot(columns[0], rows[0])
-
-
-def _solve(h: ca.SX, b: ca.SX) -> ca.SX:
-    """H⁻¹b by LDLᵀ without pivoting; H is positive definite."""
-    n = h.shape[0]
-    lower, diagonal = [[ca.SX(0)] * n for _ in range(n)], []
-    for i in range(n):
-        for j in range(i):
-            inner = sum((lower[i][k] * diagonal[k] * lower[j][k] for k in range(j)), ca.SX(0))
-            lower[i][j] = (h[i, j] - inner) / diagonal[j]
-        inner = sum((lower[i][k] ** 2 * diagonal[k] for k in range(i)), ca.SX(0))
-        diagonal.append(h[i, i] - inner)
-    y = [b[i] for i in range(n)]
-    for i in range(n):
-        for k in range(i):
-            y[i] -= lower[i][k] * y[k]
-    y = [value / d for value, d in zip(y, diagonal, strict=True)]
-    for i in range(n - 1, -1, -1):
-        for k in range(i + 1, n):
-            y[i] -= lower[k][i] * y[k]
-    return ca.vertcat(*y)
+    s, c = ca.sin(eta[0]), ca.cos(eta[0])
+    turning = (s * omega[1] + c * omega[2]) / ca.cos(eta[1])
+    return ca.vertcat(omega[0] + ca.sin(eta[1]) * turning, c * omega[1] - s * omega[2], turning)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import tempfile
-import time
 from dataclasses import dataclass
 from pathlib import Path
+
+from process import timed
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,7 @@ class Run:
         return {
             "objective": solution["objective"],
             "seconds": self.seconds,
+            "process": self.wall,
             "iterations": self.iterations,
             "solves": len(solution["iterations"]),
             "points": solution["points"],
@@ -46,7 +47,9 @@ def plan(program: Path, problem: Path, **settings: object) -> Run:
     sets = [f"--set={key.replace('__', '.')}={value}" for key, value in settings.items()]
     with tempfile.TemporaryDirectory() as out:
         # One mesh is seldom within the tolerance: status 4 is no failure here.
-        run = _run([program, "plan", problem, *sets, "--json", "--quiet", "--out", out], (0, 4))
+        command = [program, "plan", problem, *sets, "--json", "--quiet", "--out", out]
+        process = timed(command, (0, 4))
+    run = Run(process.wall, process.memory, json.loads(process.output))
     if {row["nlp_status"] for row in run.solution["iterations"]} != {"solved"}:
         raise RuntimeError(f"{problem}: {run.solution['status']}")
     return run
@@ -63,29 +66,22 @@ def one_mesh(program: Path, problem: Path, segments: int, points: int) -> Run:
     )
 
 
-def in_process(program: Path, problem: Path, segments: int, points: int) -> dict:
+def in_process(program: Path, problem: Path, segments: int, points: int, runs: int) -> dict:
     """One programme solved over and over in one process, as a library: the median's figures."""
-    example = program.parent / "examples" / "time_in_process"
     sets = ["mesh.max_iterations=1", f"mesh.segments={segments}", f"mesh.points={points}"]
-    command = [example, problem, "11", *sets]
+    command = [_in_process(program), problem, str(runs), *sets]
     return json.loads(subprocess.run(command, capture_output=True, check=True, text=True).stdout)
+
+
+def can_run_in_process(program: Path) -> bool:
+    """Whether the example that does is built."""
+    return _in_process(program).exists()
+
+
+def _in_process(program: Path) -> Path:
+    return program.parent / "examples" / "time_in_process"
 
 
 def check(program: Path, problem: Path) -> float:
     """Wall time of a process that reads the problem and solves nothing, s."""
-    return _run([program, "check", problem], (0,)).wall
-
-
-def _run(command: list, good: tuple[int, ...]) -> Run:
-    with tempfile.TemporaryFile() as output:
-        began = time.perf_counter()
-        process = subprocess.Popen(command, stdout=output, stderr=subprocess.DEVNULL)
-        _, status, usage = os.wait4(process.pid, 0)
-        wall = time.perf_counter() - began
-        code = process.returncode = os.waitstatus_to_exitcode(status)
-        if code not in good:
-            raise RuntimeError(f"{' '.join(map(str, command))}: exit status {code}")
-        output.seek(0)
-        text = output.read()
-    solution = json.loads(text) if command[1] == "plan" else {}
-    return Run(wall, usage.ru_maxrss / 1024, solution)
+    return timed([program, "check", problem]).wall

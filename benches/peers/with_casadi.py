@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import hashlib
+import statistics
 import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import casadi as ca
-import numpy as np
-from numpy.polynomial import Legendre
 
-from model import Array, Model
+from forms import Form
+from model import Model
+from process import timed
+from transcription import Mesh
 
 OPTIONS = {
     "print_time": False,
@@ -17,85 +23,27 @@ OPTIONS = {
     "ipopt.tol": 1e-9,
     # MUMPS's own choice of ordering misleads Ipopt on finer meshes.
     "ipopt.mumps_pivot_order": 0,
+    # Multipliers of parameters are nobody's wish here.
+    "calc_lam_p": False,
+    "no_nlp_grad": True,
 }
+COMPILER = ["gcc", "-O3", "-march=native", "-fPIC", "-shared", "-w"]
 
 
-def radau(n: int) -> tuple[Array, Array, Array]:
-    """Points in [-1, 1), weights, and differentiation through the points and 1."""
-    points = np.sort((Legendre.basis(n - 1) + Legendre.basis(n)).roots().real)
-    weights = np.linalg.solve(
-        np.vander(points, increasing=True).T, [(1 + (-1) ** k) / (k + 1) for k in range(n)]
-    )
-    nodes = np.append(points, 1.0)
-    gaps = nodes[:, None] - nodes[None, :]
-    np.fill_diagonal(gaps, 1.0)
-    scale = 1.0 / gaps.prod(axis=1)
-    matrix = scale[None, :] / scale[:, None] / gaps
-    np.fill_diagonal(matrix, 0.0)
-    np.fill_diagonal(matrix, -matrix.sum(axis=1))
-    return points, weights, matrix[:n]
-
-
+@dataclass
 class Programme:
-    """The programme of a model on equal segments, built once and solved many times.
+    """A programme of a model on equal segments, built once and solved many times."""
 
-    `whole` writes all nodes out as one expression, which solves faster and takes longer to build;
-    otherwise the nodes call one function.
-    """
+    model: Model
+    mesh: Mesh
+    solver: ca.Function
+    build: float  # seconds
 
-    def __init__(self, model: Model, segments: int, points: int, whole: bool) -> None:
+    def solve(self, model: Model | None = None, parameters: Any = ()) -> dict[str, Any]:
+        """Objective, seconds and iterations of one solve, of another goal or robot if given."""
+        arguments = self.mesh.arguments(model or self.model, parameters)
         began = time.perf_counter()
-        symbol = (ca.SX if whole else ca.MX).sym
-        nodes, weights, derivative = radau(points)
-        half = 0.5 * model.duration / segments
-        n, m, total = model.states, model.joints, segments * points
-        state = [symbol(f"x{k}", n) for k in range(total + 1)]
-        control = [symbol(f"u{k}", m) for k in range(total)]
-        variables, rows, cost = [], [], model.ends(state[0], state[-1])
-        lower, upper, row_lower, row_upper = [], [], [], []
-        for s in range(segments):
-            first = s * points
-            block = ca.horzcat(*state[first : first + points + 1])
-            for i in range(points):
-                k = first + i
-                rows.append(
-                    ca.mtimes(block, derivative[i]) - half * model.rates(state[k], control[k])
-                )
-                row_lower += [0.0] * n
-                row_upper += [0.0] * n
-                if np.isfinite(model.base_rate_limit):
-                    rows.append(model.base_rate(state[k]))
-                    row_lower += [-model.base_rate_limit] * model.angles
-                    row_upper += [model.base_rate_limit] * model.angles
-                cost += half * weights[i] * model.running(state[k], control[k])
-        for k in range(total + 1):
-            low, high = model.lower.copy(), model.upper.copy()
-            if k == 0:
-                low, high = model.start, model.start
-            if k == total:
-                free = np.isnan(model.goal)
-                low, high = np.where(free, low, model.goal), np.where(free, high, model.goal)
-            variables.append(state[k])
-            lower.extend(low)
-            upper.extend(high)
-            if k < total:
-                variables.append(control[k])
-                lower.extend(-model.control)
-                upper.extend(model.control)
-        fractions = np.append(
-            [(s + 0.5 * (tau + 1.0)) / segments for s in range(segments) for tau in nodes], 1.0
-        )
-        x, u = model.guess(fractions)
-        guess = np.concatenate([np.hstack([x[:-1], u[:-1]]).ravel(), x[-1]])
-        self.arguments = dict(x0=guess, lbx=lower, ubx=upper, lbg=row_lower, ubg=row_upper)
-        nlp = {"x": ca.vertcat(*variables), "f": cost, "g": ca.vertcat(*rows)}
-        self.solver = ca.nlpsol("solver", "ipopt", nlp, OPTIONS)
-        self.build = time.perf_counter() - began
-
-    def solve(self) -> dict:
-        """Objective, seconds and iterations of one solve."""
-        began = time.perf_counter()
-        result = self.solver(**self.arguments)
+        result = self.solver(**arguments, p=parameters)
         seconds = time.perf_counter() - began
         stats = self.solver.stats()
         if not stats["success"]:
@@ -105,3 +53,43 @@ class Programme:
             "seconds": seconds,
             "iterations": int(stats["iter_count"]),
         }
+
+    def warm(self, solves: int) -> dict[str, Any]:
+        """Several solves in a row after one that warms up: figures with the median of the times."""
+        self.solve()
+        runs = [self.solve() for _ in range(solves)]
+        return runs[-1] | {"seconds": statistics.median(run["seconds"] for run in runs)}
+
+
+def build(model: Model, segments: int, points: int, form: Form) -> Programme:
+    """The programme in one of the forms above."""
+    began = time.perf_counter()
+    mesh = Mesh(model, segments, points)
+    nlp, derivatives = form(model, mesh)
+    solver = ca.nlpsol("solver", "ipopt", nlp, OPTIONS | derivatives)
+    return Programme(model, mesh, solver, time.perf_counter() - began)
+
+
+def compiled(programme: Programme, folder: Path) -> tuple[Programme, float]:
+    """The same with its functions generated as C and compiled; processor time of the compiler, s.
+
+    What was compiled before is taken again, with the time it took then.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    # Not generate_dependencies, which leaves out derivatives that were given.
+    generator = ca.CodeGenerator("nlp.c")
+    generator.add(programme.solver.oracle())
+    for name in programme.solver.get_function():
+        generator.add(programme.solver.get_function(name))
+    code = generator.dump()
+    name = hashlib.sha256(" ".join([*COMPILER, code]).encode()).hexdigest()[:16]
+    library, spent = folder / f"{name}.so", folder / f"{name}.seconds"
+    if not spent.exists():
+        source = folder / f"{name}.c"
+        source.write_text(code)
+        process = timed([*COMPILER, source, "-lm", "-o", library])
+        spent.write_text(str(process.processor))
+    solver = ca.nlpsol("solver", "ipopt", str(library), OPTIONS)
+    return Programme(programme.model, programme.mesh, solver, programme.build), float(
+        spent.read_text()
+    )

@@ -5,41 +5,57 @@ from __future__ import annotations
 import contextlib
 import io
 import time
+from typing import Any
 
 import casadi as ca
 import numpy as np
 from mpopt import mp
 
-from model import Model
+from ocp import Ocp
+
+# MUMPS's ordering as in with_casadi.py.
+SOLVER = {"ipopt.tol": 1e-9, "ipopt.sb": "yes", "ipopt.mumps_pivot_order": 0}
 
 
-def solve(model: Model, segments: int, points: int) -> dict:
+def solve(ocp: Ocp, segments: int, points: int) -> dict[str, Any]:
     """Objective and seconds, all in."""
     began = time.perf_counter()
-    n, a = model.states, model.angles
-    ocp = mp.OCP(n_states=n, n_controls=model.joints)
-    ocp.dynamics[0] = lambda x, u, t: ca.vertsplit(model.rates(x, u))
-    ocp.running_costs[0] = lambda x, u, t: model.running(x, u)
-    ocp.terminal_costs[0] = lambda xf, tf, x0, t0: model.ends(x0, xf)
-    named = [i for i in range(n) if not np.isnan(model.goal[i])]
-    ocp.terminal_constraints[0] = lambda xf, tf, x0, t0: [xf[i] - model.goal[i] for i in named]
-    if np.isfinite(model.base_rate_limit):
+    problem = mp.OCP(n_states=ocp.states, n_controls=ocp.controls)
+    problem.dynamics[0] = lambda x, u, t: ca.vertsplit(ocp.node(x, u)[0])
+    problem.running_costs[0] = lambda x, u, t: ocp.node(x, u)[2]
+    problem.terminal_costs[0] = lambda xf, tf, x0, t0: ocp.ends(x0, xf, tf)
+    named = [i for i in range(ocp.states) if not np.isnan(ocp.goal[i])]
+    if named:
+        problem.terminal_constraints[0] = lambda xf, tf, x0, t0: [
+            xf[i] - ocp.goal[i] for i in named
+        ]
+    if len(ocp.row_upper):
 
-        def path(x, u, t):
-            rate = model.base_rate(x)
-            ends = [rate[i] for i in range(a)] + [-rate[i] for i in range(a)]
-            return [value - model.base_rate_limit for value in ends]
+        def path(x: ca.SX, u: ca.SX, t: ca.SX) -> list[ca.SX]:
+            rows = ca.vertsplit(ocp.node(x, u)[1])
+            above = zip(rows, ocp.row_upper, strict=True)
+            below = zip(rows, ocp.row_lower, strict=True)
+            return [row - limit for row, limit in above if np.isfinite(limit)] + [
+                limit - row for row, limit in below if np.isfinite(limit)
+            ]
 
-        ocp.path_constraints[0] = path
-    x, _ = model.guess(np.array([0.0, 1.0]))
-    ocp.x00[0], ocp.xf0[0] = x[0], x[1]
-    ocp.lbx[0], ocp.ubx[0] = model.lower, model.upper
-    ocp.lbu[0], ocp.ubu[0] = -model.control, model.control
-    ocp.lbtf[0] = ocp.ubtf[0] = ocp.tf0[0] = model.duration
-    ocp.validate()
+        problem.path_constraints[0] = path
+    problem.x00[0], problem.xf0[0] = ocp.start, ocp.end_guess
+    problem.lbx[0], problem.ubx[0] = ocp.lower, ocp.upper
+    problem.lbu[0], problem.ubu[0] = ocp.control_lower, ocp.control_upper
+    problem.lbtf[0], problem.ubtf[0] = ocp.duration
+    problem.tf0[0] = ocp.duration_guess
+    problem.validate()
     with contextlib.redirect_stdout(io.StringIO()):
-        optimizer = mp.mpopt_adaptive(ocp, n_segments=segments, poly_orders=[points] * segments)
+        optimizer = mp.mpopt_adaptive(problem, n_segments=segments, poly_orders=[points] * segments)
         # The layers are half a thousandth of the motion; the least width has to let them be.
         optimizer.lbh[0] = 1e-4
-        solution = optimizer.solve(nlp_solver_options={"ipopt.tol": 1e-9, "ipopt.sb": "yes"})
-    return {"objective": float(solution["f"]), "seconds": time.perf_counter() - began}
+        solution = optimizer.solve(nlp_solver_options=dict(SOLVER))
+        solved = optimizer.nlp_solver.stats()["success"]
+    return {
+        "objective": float(solution["f"]),
+        "seconds": time.perf_counter() - began,
+        "solved": bool(solved),
+        "solves": 1,
+        "points": segments * points,
+    }

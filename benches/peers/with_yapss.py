@@ -15,22 +15,23 @@ from model import Model
 def solve(model: Model, segments: int, points: int) -> dict:
     """Objective and seconds, all in."""
     began = time.perf_counter()
-    n, m, a = model.states, model.joints, model.angles
-    limited = a if np.isfinite(model.base_rate_limit) else 0
+    n, m = model.states, model.joints
+    limited = model.limited
     ocp = yapss.Problem(name=model.name, nx=[n], nu=[m], nq=[1], nh=[limited])
 
     def objective(arg: yapss.ObjectiveArg) -> None:
         phase = arg.phase[0]
-        ends = model.ends(_column(phase.initial_state), _column(phase.final_state))
+        ends = model.ends(_column(phase.initial_state), _column(phase.final_state), [])
         arg.objective = SXW(ends) + phase.integral[0]
 
     def continuous(arg: yapss.ContinuousArg) -> None:
         phase = arg.phase[0]
         x, u = _column(phase.state), _column(phase.control)
-        phase.dynamics[:] = _scalars(model.rates(x, u))
-        phase.integrand[0] = SXW(model.running(x, u))
+        rates, base, running = model.node(x, u, [])
+        phase.dynamics[:] = _scalars(rates)
+        phase.integrand[0] = SXW(running)
         if limited:
-            phase.path[:] = _scalars(model.base_rate(x))
+            phase.path[:] = _scalars(base)
 
     ocp.functions.objective = objective
     ocp.functions.continuous = continuous
