@@ -46,6 +46,13 @@ impl Shard {
     }
 }
 
+impl Default for Shard {
+    /// All rows.
+    fn default() -> Self {
+        Self::WHOLE
+    }
+}
+
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.index + 1, self.of)
