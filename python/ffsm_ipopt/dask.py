@@ -93,7 +93,9 @@ def run(
         asyncio.CancelledError: the scheduler is gone, or somebody cancelled a shard.
     """
     if client.asynchronous:
-        raise ValueError("client: is asynchronous; expected one that waits, as Client(...) is outside of async")
+        raise ValueError(
+            "client: is asynchronous; expected one that waits, as Client(...) is outside of async"
+        )
     if shards is not None and shards < 1:
         raise ValueError(f"shards: {shards}; expected a number from 1")
     job = _job(
@@ -135,11 +137,11 @@ class _Deal:
     def __init__(self, client: Client, job: _Job, count: int) -> None:
         self.client, self.job, self.count = client, job, count
         self.token = uuid.uuid4().hex
-        self.futures: Dict[str, Tuple[int, Future]] = {}
+        self.futures: "Dict[str, Tuple[int, Future[None]]]" = {}
         for number in range(1, count + 1):
             self.submit(number)
 
-    def submit(self, number: int, attempt: int = 1) -> Future:
+    def submit(self, number: int, attempt: int = 1) -> "Future[None]":
         job = self.job._replace(shard=(number, self.count))
         key = f"ffsm-ipopt-batch-{self.token}-{number}-{attempt}"
         future = self.client.submit(_plan_shard, self.token, job, key=key, pure=False)
@@ -195,7 +197,7 @@ def _begin(job: _Job) -> None:
 
 
 def _count(client: Client, rows: int) -> int:
-    threads = sum(client.nthreads().values())
+    threads: int = sum(client.nthreads().values())
     most = -(-rows // _LEAST_ROWS)
     return max(1, min(most, max(_LEAST_SHARDS, _SHARDS_A_THREAD * threads)))
 
