@@ -22,6 +22,7 @@ from .errors import (
     Error,
     PlanError,
     ProblemError,
+    ShardCancelledError,
     ShardsFailedError,
     SolutionError,
 )
@@ -65,6 +66,7 @@ __all__ = [
     "ProblemError",
     "Progress",
     "Record",
+    "ShardCancelledError",
     "ShardsFailedError",
     "Solution",
     "SolutionError",

@@ -4,6 +4,7 @@ The part files in the folder are the truth: a worker, a scheduler or a client th
 shards in flight had not written yet, and nothing else.
 """
 
+import asyncio
 import logging
 import os
 import time
@@ -14,7 +15,7 @@ from distributed import Client, Future, as_completed
 
 from . import _native
 from .data_set import _WORKER, BatchSummary, _Job, _job, _summary
-from .errors import DataSetError, DataSetInUseError, ShardsFailedError
+from .errors import DataSetError, DataSetInUseError, ShardCancelledError, ShardsFailedError
 from .problem import Path
 
 _log = logging.getLogger(__name__)
@@ -90,7 +91,7 @@ def run(
         DataSetError: the folder cannot be written, has other rows, or is not the same for all.
         DataSetInUseError: another run writes to the folder, and it may not ``resume``.
         ShardsFailedError: shards were given up; all others are done.
-        asyncio.CancelledError: the scheduler is gone, or somebody cancelled a shard.
+        ShardCancelledError: the scheduler is gone, or somebody cancelled a shard.
     """
     if client.asynchronous:
         raise ValueError(
@@ -159,7 +160,11 @@ class _Deal:
         waiting = as_completed([future for _, future in self.futures.values()])
         for future in waiting:
             number, _ = self.futures.pop(future.key)
-            # Raises where the task was cancelled.
+            if future.status not in ("finished", "error"):
+                raise ShardCancelledError(
+                    f"shard {number}/{self.count}: the cluster has no task for it any more: its scheduler "
+                    "ended or the task was cancelled; the rows before are kept, resume goes on from there"
+                )
             failure = future.exception()
             if failure is None:
                 done += 1
@@ -181,7 +186,7 @@ class _Deal:
         try:
             self.client.cancel([future for _, future in self.futures.values()])
             self.client.run(_stop, self.token, on_error="ignore")
-        except Exception:
+        except (Exception, asyncio.CancelledError):
             # The cluster may be gone, which is why the run ends.
             _log.warning("shards could not be told to end; they may go on to their end", exc_info=True)
 

@@ -86,3 +86,8 @@ class ShardsFailedError(Error, RuntimeError):
     def __init__(self, message: str, failures: Optional[Dict[int, BaseException]] = None) -> None:
         super().__init__(message)
         self.failures = failures or {}
+
+
+class ShardCancelledError(Error, RuntimeError):
+    """The cluster has no task any more for a shard that was not done: its scheduler ended, or somebody
+    cancelled the task. What was written is kept."""

@@ -132,6 +132,21 @@ def test_what_ends_the_run_ends_its_shards(run, cluster, planned, rows, tmp_path
     assert rows(out) == theirs
 
 
+def test_a_shard_that_is_cancelled_ends_the_run(run, cluster, planned, rows, tmp_path):
+    from distributed import Future
+
+    path, theirs = planned
+
+    def cancel(*_):
+        cluster.cancel([Future(key, cluster) for key in list(cluster.futures)])
+
+    with pytest.raises(ffsm.ShardCancelledError):
+        run(path, cluster, tmp_path / "o", shards=8, on_shard=cancel)
+    # What is still at work on them ends first.
+    assert run(path, cluster, tmp_path / "o", shards=8, resume=True).done == 80
+    assert rows(tmp_path / "o") == theirs
+
+
 @pytest.fixture
 def here(cluster):
     """A client whose worker is a thread of this process."""
