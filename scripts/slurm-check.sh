@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Runs scripts/slurm-array.sh on a real Slurm: a cluster of this one machine, from Debian's packages, that listens on
-# loopback and is gone afterwards. Needs root, and python3 for what compares the rows.
+# Plans batches on a real Slurm: a cluster of this one machine, from Debian's packages, that listens on loopback and is
+# gone afterwards. Needs root.
 #
-# A job array of four shards has to write the rows of the command, and so has one of which a task was killed in the
-# middle, once the same job is sent again. FFSM_IPOPT names the program; without, it is built.
+# A job array (scripts/slurm-array.sh) of four shards has to write the rows of the command, and so has one of which a
+# task was killed in the middle, once the same job is sent again, and Dask on jobs of which one is killed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . scripts/install.sh
@@ -17,15 +17,7 @@ find_missing() {
 }
 find_missing
 [ ${#missing[@]} = 0 ] || install_missing
-. scripts/python-venv.sh
-
-if [ -z "${FFSM_IPOPT:-}" ]; then
-  # As scripts/python.sh, so that nothing is built twice.
-  cargo build --release --locked --workspace --lib --bins --test public_types
-  FFSM_IPOPT=${CARGO_TARGET_DIR:-target}/release/ffsm-ipopt
-fi
-FFSM_IPOPT=$(realpath "$FFSM_IPOPT")
-export FFSM_IPOPT
+. scripts/python-package.sh
 
 place=$(mktemp -d /tmp/ffsm-slurm-XXXXXX)
 daemons=()
@@ -152,3 +144,7 @@ states=$(finish)
 [ "$(grep -c COMPLETED <<<"$states")" = 4 ] || die "expected four tasks that completed: $states"
 echo "one of them killed in the middle, and the job sent again:"
 rows "$place/command" "$place/killed"
+
+"$python" python/tests/slurm_dask.py "$place/batch.toml" "$place/dask"
+echo "Dask on two jobs, one of them killed in the middle:"
+rows "$place/command" "$place/dask"

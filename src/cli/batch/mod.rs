@@ -108,12 +108,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     };
     let batch = BatchFile::load(path, arguments.time_limit)?;
     let keys = solutions::positions(&batch, &arguments.solutions)?;
-    let mut options = RunOptions::default();
-    options.shard = arguments.shard.unwrap_or_default();
-    options.resume = arguments.resume;
-    options.retry = arguments.retry.clone();
-    options.warm_start = arguments.warm_start.clone();
-    options.trajectories = arguments.trajectories;
+    let options = RunOptions {
+        shard: arguments.shard.unwrap_or_default(),
+        resume: arguments.resume,
+        retry: arguments.retry.clone(),
+        warm_start: arguments.warm_start.clone(),
+        trajectories: arguments.trajectories,
+    };
     let mut run = Run::open(&batch, out, &options)?;
     interrupt::listen();
 
