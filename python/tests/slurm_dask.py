@@ -30,7 +30,7 @@ def main(batch, out):
     here = {"job_extra_directives": ["--mem=0"], "interface": "lo", "log_directory": f"{out}-jobs"}
     loopback = {"scheduler_options": {"dashboard_address": "127.0.0.1:0"}}
     with SLURMCluster(**job, **here, **loopback) as cluster:
-        cluster.scale(jobs=2)
+        cluster.adapt(minimum_jobs=2, maximum_jobs=2)
         with Client(cluster) as client:
             client.wait_for_workers(2)
             killer = threading.Thread(target=kill_one, args=(pathlib.Path(out),))

@@ -77,7 +77,9 @@ impl Lock {
         };
         let get = |name: &str, shared: bool| {
             let path = folder.join(name);
+            // Both, for NFS: there a shared lock is of what is read, an exclusive one of what is written.
             let file = OpenOptions::new()
+                .read(true)
                 .write(true)
                 .create(true)
                 .truncate(false)
