@@ -7,6 +7,7 @@ shards in flight had not written yet, and nothing else.
 import asyncio
 import logging
 import os
+import threading
 import time
 import uuid
 from typing import Callable, Dict, Optional, Sequence, Set, Tuple
@@ -29,6 +30,8 @@ _SHARDS_A_THREAD = 4
 #: Pause before asking again, s, and how often where a folder is looked at that others write to.
 _PAUSE = 1.0
 _LOOKS = 60
+#: How long the workers are waited for that are told to end, s.
+_PATIENCE = 10.0
 
 #: The runs that this worker is to end.
 _stopped: Set[str] = set()
@@ -183,6 +186,12 @@ class _Deal:
 
     def stop(self) -> None:
         """Ends the shards, wherever they are planned."""
+        # On a thread of its own: a worker that hangs is not to hold up who asked for an end.
+        telling = threading.Thread(target=self._tell, name="ffsm-ipopt-stop", daemon=True)
+        telling.start()
+        telling.join(_PATIENCE)
+
+    def _tell(self) -> None:
         try:
             self.client.cancel([future for _, future in self.futures.values()])
             self.client.run(_stop, self.token, on_error="ignore")
