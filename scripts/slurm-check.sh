@@ -13,7 +13,7 @@ PATH=$PATH:/usr/sbin:/sbin # where the daemons are
 find_missing() {
   missing=()
   command -v munged >/dev/null || missing+=(munge)
-  command -v slurmctld slurmd sbatch >/dev/null || missing+=(slurm-wlm)
+  { command -v slurmctld && command -v slurmd && command -v sbatch; } >/dev/null || missing+=(slurm-wlm)
 }
 find_missing
 [ ${#missing[@]} = 0 ] || install_missing
@@ -23,7 +23,12 @@ place=$(mktemp -d /tmp/ffsm-slurm-XXXXXX)
 daemons=()
 end() {
   local status=$?
-  [ $status = 0 ] || tail -n 20 "$place"/*.log "$place"/job-*.out >&2 || true
+  if [ $status != 0 ] && [ ${#daemons[@]} != 0 ]; then
+    tail -n 20 "$place"/*.log "$place"/job-*.out >&2 || true
+    # Jobs outlive the daemons.
+    timeout 10 scancel --user=root || true
+    sleep 2
+  fi
   # The controller first: it would take the node's end for a failure.
   [ ${#daemons[@]} = 0 ] || kill "${daemons[@]}" 2>/dev/null || true
   wait

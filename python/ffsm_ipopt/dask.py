@@ -121,7 +121,7 @@ def run(
     count = _count(client, rows) if shards is None else min(shards, max(rows, 1))
     deal = _Deal(client, job._replace(resume=True, retry=[]), count)
     try:
-        failures = deal.wait(retries, on_shard)
+        failures = deal.plan(retries, on_shard)
     except BaseException:
         deal.stop()
         raise
@@ -142,8 +142,6 @@ class _Deal:
         self.client, self.job, self.count = client, job, count
         self.token = uuid.uuid4().hex
         self.futures: "Dict[str, Tuple[int, Future[None]]]" = {}
-        for number in range(1, count + 1):
-            self.submit(number)
 
     def submit(self, number: int, attempt: int = 1) -> "Future[None]":
         job = self.job._replace(shard=(number, self.count))
@@ -152,15 +150,15 @@ class _Deal:
         self.futures[key] = number, future
         return future
 
-    def wait(
+    def plan(
         self, retries: int, on_shard: Optional[Callable[[int, int], object]]
     ) -> Dict[int, BaseException]:
-        """What the shards failed with that are given up; the others are done."""
+        """Has the shards planned; what those failed with that are given up."""
         failures: Dict[int, BaseException] = {}
         #: Rows of a shard at its last failure, failures since then, attempts in all.
         tried: Dict[int, Tuple[int, int, int]] = {}
         done = 0
-        waiting = as_completed([future for _, future in self.futures.values()])
+        waiting = as_completed([self.submit(number) for number in range(1, self.count + 1)])
         for future in waiting:
             number, _ = self.futures.pop(future.key)
             if future.status not in ("finished", "error"):
