@@ -4,45 +4,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . scripts/install.sh
 
-home=target/python
-requirements=python/tests/requirements.txt # for Python 3.11 and newer
+. scripts/python-package.sh
 
-# A Python of 3.11 or newer, as the tests need, that makes virtual environments.
-have_python() {
-  python3 -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
-}
-if ! have_python; then
-  missing=(python3-venv)
-  find_missing() {
-    missing=()
-    have_python || missing=(python3-venv)
-  }
-  install_missing
-fi
-
-if ! cmp -s "$requirements" "$home/installed.txt"; then
-  rm -rf "$home"
-  mkdir -p "$home"
-  python3 -m venv "$home/venv"
-  "$home/venv/bin/pip" install --quiet --disable-pip-version-check -r "$requirements"
-  # Last, because it says that all the rest is there.
-  cp "$requirements" "$home/installed.txt"
-fi
-
-# The command writes the solutions that those of the package are held against. The test is there for its
-# dependencies alone: with them the selection of features is that of cargo test, and nothing is built twice.
-cargo build --release --locked --workspace --lib --bins --test public_types
-built=${CARGO_TARGET_DIR:-target}/release
-package=$home/package
-rm -rf "$package"
-mkdir -p "$package"
-cp -R python/ffsm_ipopt "$package/"
-cp "$built/libffsm_ipopt_native.so" "$package/ffsm_ipopt/_native.abi3.so"
-
-export PYTHONPATH=$PWD/$package PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=agg MPLCONFIGDIR=$PWD/$home/matplotlib
-FFSM_IPOPT=$(realpath "$built/ffsm-ipopt")
-export FFSM_IPOPT
-python=$PWD/$home/venv/bin/python
 top=$PWD
 (cd python && "$python" -m mypy --cache-dir "$top/$home/mypy" tests/typed.py)
 cd "$home" # where no other ffsm_ipopt is

@@ -8,7 +8,7 @@ use ffsm_ipopt::nlp::ipopt::IpoptError;
 use ffsm_ipopt::planner::{Diagnosis, Method, Plan, PlanError, Planner, Status};
 use ffsm_ipopt::problem::{LimitId, Problem, ProblemBuilder, ProblemError, Unit};
 use ffsm_ipopt::report::OutputError;
-use ffsm_ipopt::solution::dataset::{DataSet, DataSetError, Writer};
+use ffsm_ipopt::solution::dataset::{DataSet, DataSetError, Run, RunError, RunOptions, Writer};
 use ffsm_ipopt::solution::{Solution, SolutionError};
 use ffsm_ipopt::study::batch::{Engine, EngineError, Record, RowPlanner};
 use ffsm_ipopt::study::dispersion::{DispersionError, Figures, Replays, Sample, Sensitivities};
@@ -36,6 +36,7 @@ fn public_types_move_between_threads_and_can_be_shared() {
     shared::<Solution>();
     shared::<(BatchFile, BatchRow, Engine, EngineError, Record, RowPlanner)>();
     shared::<(DataSet, DataSetError, Writer)>();
+    shared::<(Run<'_>, RunError, RunOptions)>();
     shared::<(Dispersion, Distribution, Replays, Figures, Sample)>();
     shared::<(Sensitivities, DispersionError)>();
 }

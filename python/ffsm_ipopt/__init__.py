@@ -15,7 +15,17 @@ import numpy as _numpy  # noqa: F401
 
 from ._native import build as _build
 from ._native import set_thread_count
-from .errors import Error, PlanError, ProblemError, SolutionError
+from .data_set import BatchSummary, batch
+from .errors import (
+    DataSetError,
+    DataSetInUseError,
+    Error,
+    PlanError,
+    ProblemError,
+    ShardCancelledError,
+    ShardsFailedError,
+    SolutionError,
+)
 from .planning import Figures, Judgement, Progress, Record, check, plan, plan_many, verify
 from .problem import Problem
 from .solution import (
@@ -39,7 +49,10 @@ METHODS = tuple(_methods)
 
 __all__ = [
     "METHODS",
+    "BatchSummary",
     "CostTerm",
+    "DataSetError",
+    "DataSetInUseError",
     "Diagnosis",
     "Error",
     "Figures",
@@ -53,11 +66,14 @@ __all__ = [
     "ProblemError",
     "Progress",
     "Record",
+    "ShardCancelledError",
+    "ShardsFailedError",
     "Solution",
     "SolutionError",
     "Timing",
     "Trajectory",
     "Verification",
+    "batch",
     "check",
     "plan",
     "plan_many",

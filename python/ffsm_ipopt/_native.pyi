@@ -1,4 +1,6 @@
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
+
+from .data_set import _Job
 
 class Problem:
     @staticmethod
@@ -63,6 +65,18 @@ def plan_many(
     start: Optional[Solution],
     motions: bool,
     on_record: Callable[..., None],
+) -> None: ...
+def batch_rows(job: _Job) -> int: ...
+def begin_batch(job: _Job) -> None: ...
+def run_batch(job: _Job, worker: List[str], told: Callable[[Optional[str]], None]) -> None: ...
+def ended(out: str) -> Tuple[int, Dict[str, int]]: ...
+def rows_done(out: str, shard: Tuple[int, int]) -> int: ...
+def serve_rows(
+    batch: str,
+    fingerprint: str,
+    time_limit: Optional[float],
+    warm_start: Optional[str],
+    trajectories: bool,
 ) -> None: ...
 def build() -> Tuple[str, str, List[str]]: ...
 def set_thread_count(threads: int) -> None:

@@ -3,7 +3,7 @@
 An infeasible or unconverged problem raises nothing: its :class:`~ffsm_ipopt.Solution` says so.
 """
 
-from typing import Optional, Sequence, Tuple
+from typing import Dict, Optional, Sequence, Tuple
 
 
 class Error(Exception):
@@ -60,3 +60,34 @@ class SolutionError(Error, ValueError):
 
 class PlanError(Error, RuntimeError):
     """The planner cannot begin: the solver refuses, or a start belongs to another robot."""
+
+
+class DataSetError(Error, RuntimeError):
+    """A data set cannot be written, read, or gone on with. The rows in it are kept.
+
+    Attributes:
+        file: the file or folder.
+    """
+
+
+class DataSetInUseError(DataSetError):
+    """Another run writes to these rows of the folder; they are free once it has ended, however it ends."""
+
+
+class ShardsFailedError(Error, RuntimeError):
+    """Shards of a batch failed again and again without a row more; the others are done.
+
+    Attributes:
+        failures: what each of them failed with, by its number from 1.
+    """
+
+    failures: Dict[int, BaseException]
+
+    def __init__(self, message: str, failures: Optional[Dict[int, BaseException]] = None) -> None:
+        super().__init__(message)
+        self.failures = failures or {}
+
+
+class ShardCancelledError(Error, RuntimeError):
+    """The cluster has no task any more for a shard that was not done: its scheduler ended, or somebody
+    cancelled the task. What was written is kept."""

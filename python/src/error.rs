@@ -4,6 +4,7 @@ use ffsm_ipopt::config::{ConfigError, ProblemFile};
 use ffsm_ipopt::planner::PlanError;
 use ffsm_ipopt::report::OutputError;
 use ffsm_ipopt::solution::SolutionError;
+use ffsm_ipopt::solution::dataset::{DataSetError, RunError};
 use ffsm_ipopt::study::batch::EngineError;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -16,6 +17,9 @@ pub enum Failure {
     Plan(PlanError),
     Engine(EngineError),
     Output(OutputError),
+    DataSet(DataSetError),
+    /// Records cannot be told to the batch.
+    Pipe(std::io::Error),
     /// An argument that cannot be.
     Argument(String),
     /// A solution that cannot be written as JSON.
@@ -43,6 +47,23 @@ impl From<ConfigError> for Failure {
 impl From<SolutionError> for Failure {
     fn from(error: SolutionError) -> Self {
         Self::Solution(error)
+    }
+}
+
+impl From<DataSetError> for Failure {
+    fn from(error: DataSetError) -> Self {
+        Self::DataSet(error)
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::DataSet(error) => Self::DataSet(error),
+            RunError::Engine(error) => Self::Engine(error),
+            RunError::Solution(error) => Self::Solution(error),
+            error => Self::Argument(error.to_string()),
+        }
     }
 }
 
@@ -78,6 +99,8 @@ impl From<Failure> for PyErr {
                 .map_or_else(|raised| raised, PyErr::from_value),
             Failure::Engine(error) => PyRuntimeError::new_err(error.to_string()),
             Failure::Output(error) => PyOSError::new_err(error.to_string()),
+            Failure::DataSet(error) => data_set(py, error).unwrap_or_else(|raised| raised),
+            Failure::Pipe(error) => PyOSError::new_err(error.to_string()),
             Failure::Argument(message) => PyValueError::new_err(message.clone()),
             Failure::Json(error) => PyRuntimeError::new_err(error.to_string()),
             Failure::Raised(raised) => raised.clone_ref(py),
@@ -108,6 +131,17 @@ fn config(py: Python<'_>, error: &ConfigError) -> PyResult<PyErr> {
         faults,
     );
     let raised = class(py, "ProblemError")?.call1(arguments)?;
+    Ok(PyErr::from_value(raised))
+}
+
+/// `DataSetError`, or the one of a folder that another run writes to.
+fn data_set(py: Python<'_>, error: &DataSetError) -> PyResult<PyErr> {
+    let name = match error {
+        DataSetError::Locked { .. } => "DataSetInUseError",
+        _ => "DataSetError",
+    };
+    let path = error.path().display().to_string();
+    let raised = class(py, name)?.call1((error.to_string(), None::<&str>, path))?;
     Ok(PyErr::from_value(raised))
 }
 

@@ -3,6 +3,7 @@
 //! Names, units and shapes for its users are in the Python files beside this folder.
 
 mod arrays;
+mod batch;
 mod error;
 mod many;
 mod monitor;
@@ -17,6 +18,8 @@ use pyo3::prelude::*;
 /// The compiled part of ffsm_ipopt.
 #[pymodule(name = "_native")]
 mod native {
+    #[pymodule_export]
+    use crate::batch::{batch_rows, begin_batch, ended, rows_done, run_batch, serve_rows};
     #[pymodule_export]
     use crate::many::plan_many;
     #[pymodule_export]

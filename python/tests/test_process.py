@@ -14,6 +14,7 @@ CALLS = {
     "plan": "ffsm.plan(problem, on_progress=begun)",
     "search": "ffsm.plan(problem, search=2000, on_progress=begun)",
     "plan_many": "ffsm.plan_many([problem] * 2000, on_record=begun)",
+    "batch": "ffsm.batch({batch!r}, {out!r}, on_row=begun)",
 }
 CHILD = """
 import signal
@@ -39,9 +40,10 @@ except KeyboardInterrupt:
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_ctrl_c_ends_a_call_and_nothing_else(name):
+def test_ctrl_c_ends_a_call_and_nothing_else(name, batch, tmp_path):
     path = str(CONFIG / "table1-smooth.toml")
-    code = CHILD.format(path=path, call=CALLS[name], endless=name == "plan")
+    call = CALLS[name].format(batch=str(batch(2000)), out=str(tmp_path / "o"))
+    code = CHILD.format(path=path, call=call, endless=name == "plan")
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     assert child.stdout.readline() == "begun\n"
     child.send_signal(signal.SIGINT)

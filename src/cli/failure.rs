@@ -8,7 +8,7 @@ use crate::report::OutputError;
 use crate::reproduction::ReproductionError;
 use crate::simulate::SimulateError;
 use crate::solution::SolutionError;
-use crate::solution::dataset::DataSetError;
+use crate::solution::dataset::{DataSetError, RunError};
 use crate::study::batch::EngineError;
 use crate::study::dispersion::DispersionError;
 use std::path::Path;
@@ -51,6 +51,19 @@ pub(super) enum Failure {
     Program { cause: std::io::Error },
     #[error("no linear solver works with this Ipopt; install one, such as MUMPS")]
     NoLinearSolver,
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::DataSet(error) => Self::DataSet(error),
+            RunError::Engine(error) => Self::Engine(error),
+            RunError::Solution(error) => Self::Solution(error),
+            error @ (RunError::NoProblem { .. } | RunError::RetryOfShard) => {
+                Self::Usage(error.to_string())
+            }
+        }
+    }
 }
 
 impl Failure {

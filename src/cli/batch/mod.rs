@@ -1,6 +1,5 @@
 //! `batch`: many problems, a data set.
 
-mod buffer;
 mod progress;
 mod show;
 mod solutions;
@@ -10,12 +9,10 @@ use super::failure::Failure;
 use super::{Outcome, interrupt, terminal};
 use crate::config::{BatchFile, trusts_options};
 use crate::nlp::Control;
-use crate::nlp::ipopt::{self, interrupt as stop, serialised};
-use crate::planner::Start;
-use crate::solution::dataset::{Manifest, Shard, Writer};
-use crate::solution::read_warm_start;
-use crate::study::batch::{Engine, Event, Isolation, RowStatus, WorkerCommand};
-use buffer::Buffer;
+use crate::nlp::LinearSolver;
+use crate::nlp::ipopt::interrupt as stop;
+use crate::solution::dataset::{Run, RunOptions, Shard};
+use crate::study::batch::{Event, Isolation, RowStatus, WorkerCommand};
 use clap::{Args, Subcommand};
 use progress::Progress;
 use std::ffi::OsString;
@@ -109,90 +106,52 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let (Some(path), Some(out)) = (&arguments.batch, &arguments.out) else {
         return Err(Failure::Usage("a batch file and --out are needed".into()));
     };
-    let shard = arguments.shard.unwrap_or(Shard::WHOLE);
-    let retries = !arguments.retry.is_empty();
-    if retries && shard != Shard::WHOLE {
-        let message = "--retry takes rows out of the whole folder; give it without --shard";
-        return Err(Failure::Usage(message.into()));
-    }
     let batch = BatchFile::load(path, arguments.time_limit)?;
     let keys = solutions::positions(&batch, &arguments.solutions)?;
-    let warm_start = arguments.warm_start.as_deref();
-    let start = start(&batch, warm_start)?;
-    let manifest = Manifest::of(&batch, warm_start, arguments.trajectories)?;
-    let resumes = arguments.resume || retries;
-    let (mut writer, mut done) = Writer::open(out, manifest, shard, resumes)?;
-    if retries && writer.retract(&arguments.retry)? > 0 {
-        done = writer.set().done()?;
-    }
+    let options = RunOptions {
+        shard: arguments.shard.unwrap_or_default(),
+        resume: arguments.resume,
+        retry: arguments.retry.clone(),
+        warm_start: arguments.warm_start.clone(),
+        trajectories: arguments.trajectories,
+    };
+    let mut run = Run::open(&batch, out, &options)?;
     interrupt::listen();
 
-    let mut engine = Engine::default();
     let jobs = arguments
         .jobs
         .and_then(|jobs| NonZero::new(usize::from(jobs)));
-    engine.jobs = jobs.unwrap_or(engine.jobs);
-    engine.start = start.clone();
-    engine.motions = arguments.trajectories;
-    engine.isolation = isolation(arguments, path, &batch)?;
-    let left = || shard.positions(batch.count()).filter(|row| !done.has(*row));
-    let mut progress = Progress::start(left().count() as u64, arguments.quiet);
-    let mut buffer = Buffer::new();
-    let mut broken = None;
-    let ran = engine.run(&batch, left(), &mut |event| {
+    let isolation = isolation(arguments, (path, &batch), run.serialised())?;
+    let mut progress = Progress::start(run.left().count() as u64, arguments.quiet);
+    let ran = run.plan(jobs, isolation, &mut |event| {
         if let Event::Record(record) = event {
             progress.row(record.status);
-            buffer.push(*record);
         }
         progress.show();
-        match buffer.is_due().then(|| buffer.write(&mut writer)) {
-            Some(Err(error)) => {
-                broken = Some(error);
-                Control::Stop
-            }
-            _ => Control::Continue,
-        }
+        Control::Continue
     });
     progress.finish();
-    if let Some(error) = broken {
-        return Err(error.into());
-    }
-    buffer.write(&mut writer)?;
     ran?;
     if stop::requested() {
-        let rows = writer.set().done()?.rows();
+        let rows = run.set().done()?.rows();
         terminal::complain(&format!(
             "{rows} rows are kept; --resume goes on from there"
         ));
         return Ok(Outcome::Interrupted);
     }
-    solutions::write(&batch, (&keys, start.as_ref()), out)?;
+    solutions::write(&batch, (&keys, run.start()), out)?;
     if !arguments.quiet || arguments.json {
-        show::print(writer.set(), arguments.json)?;
+        show::print(run.set(), arguments.json)?;
     }
     Ok(Outcome::Done)
 }
 
-/// The saved solution that every plan starts from, which has to fit the first problem that can be.
-fn start(batch: &BatchFile, solution: Option<&Path>) -> Result<Option<Start>, Failure> {
-    let Some(solution) = solution else {
-        return Ok(None);
-    };
-    let mut rows = (0..batch.count()).filter_map(|position| batch.row(position).ok());
-    let first = rows
-        .next()
-        .ok_or_else(|| Failure::Usage(format!("{}: has no row that is a problem", batch.path)))?;
-    Ok(Some(read_warm_start(solution, &first.file)?.start))
-}
-
 /// Processes where they are asked for, and where the linear solver cannot serve two threads.
-fn isolation(arguments: &Arguments, path: &Path, batch: &BatchFile) -> Result<Isolation, Failure> {
-    let first = batch
-        .row(0)
-        .ok()
-        .map(|row| row.file.problem.into_builder().solver);
-    let solver = first.map(|settings| ipopt::linear_solver(&settings));
-    let alone = solver.filter(serialised);
+fn isolation(
+    arguments: &Arguments,
+    (path, batch): (&Path, &BatchFile),
+    alone: Option<LinearSolver>,
+) -> Result<Isolation, Failure> {
     if !arguments.isolate && alone.is_none() {
         return Ok(Isolation::Threads);
     }

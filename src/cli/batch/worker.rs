@@ -3,11 +3,9 @@
 use crate::cli::Outcome;
 use crate::cli::failure::Failure;
 use crate::config::BatchFile;
-use crate::parallel;
-use crate::study::batch::RowPlanner;
+use crate::solution::dataset::start;
+use crate::study::batch::{RowPlanner, depend_on_batch, serve};
 use clap::Args;
-use std::io::{BufRead, Write};
-use std::num::NonZero;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -32,9 +30,7 @@ pub(in crate::cli) struct Arguments {
 
 /// Serves until its input ends, which it does however the batch ends.
 pub(in crate::cli) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
-    let _ = rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL));
-    // Where memory runs out, the batch is to stay.
-    let _ = std::fs::write("/proc/self/oom_score_adj", "1000");
+    depend_on_batch();
     let batch = BatchFile::load(&arguments.batch, arguments.time_limit)?;
     if batch.fingerprint() != arguments.fingerprint {
         let path = arguments.batch.display();
@@ -42,26 +38,16 @@ pub(in crate::cli) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             "{path}: changed while the batch was planned"
         )));
     }
-    let start = super::start(&batch, arguments.warm_start.as_deref())?;
+    let solution = arguments.warm_start.as_deref();
+    let start = solution.map(|path| start(&batch, path)).transpose()?;
     let mut planner = RowPlanner::new(start, arguments.trajectories);
     let faults = Faults::of_environment();
-    let mut output = std::io::stdout().lock();
-    let mut say = |line: &str| {
-        writeln!(output, "{line}")
-            .and_then(|()| output.flush())
-            .map_err(Failure::Terminal)
-    };
-    parallel::with_threads(NonZero::<usize>::MIN, || {
-        say("ready")?;
-        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
-            let Ok(position) = line.parse() else { break };
-            faults.commit(position);
-            let record = planner.plan(&batch, position);
-            let record = serde_json::to_string(&record);
-            say(&record.map_err(|error| Failure::Usage(error.to_string()))?)?;
-        }
-        Ok(Outcome::Done)
+    let (input, output) = (std::io::stdin().lock(), std::io::stdout().lock());
+    serve((&batch, &mut planner), input, output, &|position| {
+        faults.commit(position);
     })
+    .map_err(Failure::Terminal)?;
+    Ok(Outcome::Done)
 }
 
 /// Faults that tests ask for, in `FFSM_BATCH_FAULTS`, as `crash:3,hang:5,memory:7`: what no problem can

@@ -80,6 +80,22 @@ pub enum DataSetError {
     },
 }
 
+impl DataSetError {
+    /// The file or folder that it is about.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Write { path, .. }
+            | Self::Encode { path, .. }
+            | Self::Read { path, .. }
+            | Self::Damaged { path, .. }
+            | Self::Missing { path }
+            | Self::Locked { path }
+            | Self::Begun { path, .. }
+            | Self::Other { path, .. } => path,
+        }
+    }
+}
+
 /// The failure of writing at `path`.
 pub(super) fn write(path: &Path) -> impl FnOnce(io::Error) -> DataSetError {
     let path = path.to_path_buf();

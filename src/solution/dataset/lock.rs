@@ -46,6 +46,13 @@ impl Shard {
     }
 }
 
+impl Default for Shard {
+    /// All rows.
+    fn default() -> Self {
+        Self::WHOLE
+    }
+}
+
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.index + 1, self.of)
@@ -70,7 +77,9 @@ impl Lock {
         };
         let get = |name: &str, shared: bool| {
             let path = folder.join(name);
+            // Both, for NFS: there a shared lock is of what is read, an exclusive one of what is written.
             let file = OpenOptions::new()
+                .read(true)
                 .write(true)
                 .create(true)
                 .truncate(false)

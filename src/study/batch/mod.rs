@@ -11,6 +11,7 @@
 //! | `one` | a single row |
 //! | `process` | a worker in a process of its own |
 //! | `record` | what became of a row |
+//! | `serve` | the other end of such a worker |
 //! | `status` | how a row ended |
 //! | `tasks` | where the problems come from |
 
@@ -20,6 +21,7 @@ mod error;
 mod one;
 mod process;
 mod record;
+mod serve;
 mod status;
 mod tasks;
 
@@ -28,5 +30,6 @@ pub use error::EngineError;
 pub use one::RowPlanner;
 pub use process::WorkerCommand;
 pub use record::{Figures, Motion, Record};
+pub use serve::{depend_on_batch, serve};
 pub use status::RowStatus;
 pub use tasks::{Refusal, Task, Tasks};

@@ -1,6 +1,7 @@
 //! Records on their way to the next part file.
 
-use crate::solution::dataset::{DataSetError, Writer};
+use super::error::DataSetError;
+use super::folder::Writer;
 use crate::study::batch::Record;
 use std::time::{Duration, Instant};
 
