@@ -238,7 +238,7 @@ fn objective_error(last: &Record) -> Option<String> {
     let error = last.objective_error;
     error
         .is_finite()
-        .then(|| format!("{error:+.1e} to go, by the multipliers"))
+        .then(|| format!("about {error:+.1e}, from the multipliers"))
 }
 
 /// One row a mesh iteration.

@@ -37,7 +37,8 @@ pub fn columns(samples: &Samples) -> Vec<Column> {
         let column = |(axis, name): (usize, &&str)| Column {
             name: format!("{quantity}.{name}"),
             unit,
-            values: (0..samples.t.len()).map(|k| of(k, axis)).collect(),
+            // Adding zero takes the sign off a zero.
+            values: (0..samples.t.len()).map(|k| of(k, axis) + 0.0).collect(),
         };
         axes.iter().enumerate().map(column).collect::<Vec<_>>()
     };

@@ -125,10 +125,10 @@ def main():
     mujoco.set_mjcb_control(driver(model, motion))
     try:
         if arguments.view:
-            import mujoco.viewer
+            from mujoco import viewer as viewers
 
             shown = start(model, motion)
-            with mujoco.viewer.launch_passive(model, shown) as viewer:
+            with viewers.launch_passive(model, shown) as viewer:
 
                 def show(data):
                     if not viewer.is_running():
