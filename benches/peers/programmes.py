@@ -64,8 +64,9 @@ def _one(
         )
         agree(what, sides, 1e-7)
         warm, mine = f"{what}, both warm", sides["ours"]
-        table.add(warm, f"{alone}, solve alone", mine, sides["alone"], aims[0])
-        table.add(warm, f"{code}, solve alone", mine, sides["compiled"], aims[1])
+        solve = mine.by("solve")
+        table.add(warm, f"{alone}, solve alone", solve, sides["alone"], aims[0])
+        table.add(warm, f"{code}, solve alone", solve, sides["compiled"], aims[1])
         table.add(warm, f"{whole}, build and solve", mine, sides["anew"], None)
     else:
         print(f"{what}: examples/time_in_process is not built, no warm times", flush=True)

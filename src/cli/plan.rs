@@ -127,6 +127,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let start = warm_start
         .map(|path| solution::read_warm_start(path, &file))
         .transpose()?;
+    if let Some(rate) = arguments.sample {
+        let duration = file.problem.task.duration.lower;
+        even_times(rate, duration)
+            .map_err(|cause| Failure::Usage(format!("--sample {rate:?}: {cause}")))?;
+    }
     let default = || Path::new("out").join(&file.problem.name);
     let folder = OutputFolder::create(&arguments.out.clone().unwrap_or_else(default))?;
 
@@ -137,11 +142,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         }
     }
     let start = start.map(|found| found.start);
-    if let Some(rate) = arguments.sample {
-        let duration = file.problem.task.duration.lower;
-        even_times(rate, duration)
-            .map_err(|cause| Failure::Usage(format!("--sample {rate:?}: {cause}")))?;
-    }
 
     interrupt::listen();
     let mut progress = Progress::start(&file.problem.name, arguments.quiet);

@@ -165,6 +165,17 @@ impl Bodies {
             / mass
     }
 
+    /// Rotational inertia of the whole system about its mass centre, all joints held, inertial axes, kg m².
+    pub fn inertia(&self) -> Matrix3<f64> {
+        let center = self.center();
+        let of_body = |body: &BodyMotion| {
+            let arm = body.center - center;
+            let about = Matrix3::identity() * arm.norm_squared() - arm * arm.transpose();
+            body.inertia + about * body.mass
+        };
+        self.motions.iter().map(of_body).sum()
+    }
+
     /// Total linear momentum, kg m/s.
     pub fn linear_momentum(&self) -> Vector3<f64> {
         self.motions

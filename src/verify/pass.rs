@@ -28,7 +28,7 @@ pub(super) struct Planned<'a> {
     /// Total momentum in inertial axes, the angular one about the system's mass centre.
     pub linear: Vector3<f64>,
     pub angular: Vector3<f64>,
-    total_mass: f64,
+    pub total_mass: f64,
 }
 
 impl<'a> Planned<'a> {

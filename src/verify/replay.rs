@@ -3,7 +3,7 @@
 
 use super::Verification;
 use super::bodies::{BaseMotion, Bodies};
-use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
+use super::mass_matrix::NotPositiveDefinite;
 use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
 use super::quaternion::{turn_rate, unit, vector, write};
@@ -18,7 +18,6 @@ use crate::transcription::Discretization;
 pub(super) struct Replay<'a> {
     planned: Planned<'a>,
     bodies: Bodies,
-    mass: MassMatrix,
     path: Polynomial,
     slope: Polynomial,
     q: Vec<f64>,
@@ -32,7 +31,6 @@ impl<'a> Replay<'a> {
         let n = planned.model.joint_count();
         Self {
             bodies: Bodies::new(planned.model),
-            mass: MassMatrix::new(planned.model),
             planned,
             path: Polynomial::default(),
             slope: Polynomial::default(),
@@ -50,15 +48,16 @@ impl Ode for Replay<'_> {
         self.path.at(tau, &mut self.q);
         self.slope.at(tau, &mut self.dq);
         self.dq.iter_mut().for_each(|rate| *rate /= self.unit);
-        let base = BaseMotion::placed(vector(y, 0), unit(&y[3..]));
-        self.bodies
-            .update(self.planned.model, &base, &self.q, &self.dq);
-        self.mass
-            .update(self.planned.model, &self.bodies, &self.dq)?;
+        // What the joints alone carry of the momentum; the base has to bring the rest, as a rigid body of all.
         let position = vector(y, 0);
-        let (velocity, angular) = self
-            .planned
-            .twist(&self.mass, &self.bodies, &position, &self.dq);
+        let base = BaseMotion::placed(position, unit(&y[3..]));
+        let (planned, bodies) = (&self.planned, &mut self.bodies);
+        bodies.update(planned.model, &base, &self.q, &self.dq);
+        let spin = planned.angular - bodies.angular_momentum();
+        let inertia = bodies.inertia().cholesky().ok_or(NotPositiveDefinite)?;
+        let angular = inertia.solve(&spin);
+        let velocity = (planned.linear - bodies.linear_momentum()) / planned.total_mass
+            - angular.cross(&(bodies.center() - position));
         dy[..3].copy_from_slice(velocity.as_slice());
         turn_rate(&angular, &y[3..], &mut dy[3..]);
         dy.iter_mut().for_each(|rate| *rate *= self.unit);
