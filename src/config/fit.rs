@@ -3,6 +3,7 @@
 use super::document::quoted;
 use super::files::{Files, Source, without_parents};
 use super::item::{Item, Section, hint};
+use super::platform::PARTS;
 use super::{ConfigError, Overrides, PlatformFile, ProblemFile};
 use crate::dynamics::Model;
 use crate::planner::Method;
@@ -89,7 +90,13 @@ impl FitFile {
             text,
             document,
         } = files.document(path, "a fit file")?;
-        let root = Item::root(&document).section(&[
+        let root = Item::root(&document);
+        let mut entries = root.as_entries().into_iter().flatten();
+        if let Some(item) = entries.find(|item| PARTS.contains(&item.name)) {
+            let expected = "measurements with the platform they are of; simulate SOLUTION.json takes this file";
+            return Err(item.error("part of a platform", expected));
+        }
+        let root = root.section(&[
             "schema",
             "name",
             "platform",

@@ -223,3 +223,20 @@ fn the_files_of_a_plan_are_one_set() {
     assert_eq!(folder.read("a/solution.json"), old);
     assert_eq!(names(&folder), set);
 }
+
+#[test]
+fn files_of_a_platform_and_of_measurements_are_told_apart() {
+    let folder = Folder::new(PROBLEM);
+    folder.run(&["plan", "case.toml", "--out", "a", "--quiet", "--no-report"]);
+    let platforms = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("config/platforms");
+    let path = |name: &str| platforms.join(name).display().to_string();
+    let (table, measured) = (path("air-bearing.toml"), path("published.toml"));
+    let run = folder.run(&["simulate", "a/solution.json", &measured]);
+    assert_eq!(run.code, 2, "{run:?}");
+    let said = "experiments: measurements; expected the platform alone; measurements are for simulate --fit";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
+    let run = folder.run(&["simulate", "--fit", &table]);
+    assert_eq!(run.code, 2, "{run:?}");
+    let said = "simulate SOLUTION.json takes this file";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
+}

@@ -82,25 +82,31 @@ impl PlatformFile {
     }
 }
 
+/// Keys that a platform file alone has.
+pub(super) const PARTS: [&str; 13] = [
+    "seed",
+    "repeats",
+    "controller",
+    "actuator",
+    "joint_friction",
+    "encoder",
+    "bearing",
+    "payload",
+    "pads",
+    "floor",
+    "air",
+    "umbilical",
+    "release",
+];
+
 fn platform(root: &Item<'_>, robot: &Model) -> Result<Platform, ConfigError> {
-    let root = root.section(&[
-        "schema",
-        "name",
-        "seed",
-        "repeats",
-        "controller",
-        "actuator",
-        "joint_friction",
-        "encoder",
-        "bearing",
-        "payload",
-        "pads",
-        "floor",
-        "air",
-        "umbilical",
-        "release",
-        "capture",
-    ])?;
+    let mut entries = root.as_entries().into_iter().flatten();
+    if let Some(item) = entries.find(|item| item.name == "experiments") {
+        let expected = "the platform alone; measurements are for simulate --fit";
+        return Err(item.error("measurements", expected));
+    }
+    let known = [&["schema", "name", "capture"][..], &PARTS].concat();
+    let root = root.section(&known)?;
     super::schema(&root)?;
     let mut platform = Platform {
         name: String::new(),
