@@ -1,6 +1,6 @@
 //! The unreduced equations of motion (4): inertia matrix and bias forces from body Jacobians.
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, BodyMotion};
 use crate::dynamics::{JointKind, Model};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
@@ -24,11 +24,9 @@ pub struct MassMatrix {
     matrix: Mat<f64>,
     factor: Mat<f64>,
     bias: Vec<f64>,
-    /// Columns of the current body's Jacobian that are not zero: coordinate, velocity of the
+    /// The joints' columns of the current body's Jacobian that are not zero: coordinate, velocity of the
     /// mass centre and angular velocity for its unit rate.
     jacobian: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
-    /// Mass and inertia times those columns.
-    weighted: Vec<(Vector3<f64>, Vector3<f64>)>,
     /// Angular and origin acceleration of every body at zero generalized acceleration.
     accelerations: Vec<(Vector3<f64>, Vector3<f64>)>,
     scratch: MemBuffer,
@@ -53,7 +51,6 @@ impl MassMatrix {
             factor: Mat::zeros(size, size),
             bias: vec![0.0; size],
             jacobian: Vec::with_capacity(size),
-            weighted: Vec::with_capacity(size),
             accelerations: vec![(zero, zero); model.joint_count() + 1],
             scratch: MemBuffer::new(cholesky_in_place_scratch::<f64>(
                 size,
@@ -189,42 +186,57 @@ impl MassMatrix {
         }
     }
 
-    /// Adds JᵀMᵢJ and Jᵀ(Mᵢa + ω×Iω) of one body.
+    /// Adds JᵀMᵢJ and Jᵀ(Mᵢa + ω×Iω) of one body. The base's columns of J are those of a rigid body about
+    /// its origin, and are not written out.
     fn add_body(&mut self, model: &Model, bodies: &Bodies, index: usize) {
         let motions = bodies.motions();
         let body = &motions[index];
+        let arm = body.center - motions[0].origin;
         self.fill_jacobian(model, bodies, index);
-        self.weighted.clear();
-        self.weighted.extend(
-            self.jacobian
-                .iter()
-                .map(|(_, linear, angular)| (linear * body.mass, body.inertia * angular)),
-        );
         let (alpha, origin) = self.accelerations[index];
         let force = (origin + at(&alpha, &body.angular, &(body.center - body.origin))) * body.mass;
         let moment = body.inertia * alpha + body.angular.cross(&(body.inertia * body.angular));
-        for (column, linear, angular) in &self.jacobian {
-            self.bias[*column] += linear.dot(&force) + angular.dot(&moment);
-            let entries = self.matrix.col_as_slice_mut(*column);
-            for ((row, ..), (momentum, spin)) in self.jacobian.iter().zip(&self.weighted) {
-                if row >= column {
-                    entries[*row] += linear.dot(momentum) + angular.dot(spin);
-                }
+        self.add_to_base(body, &arm);
+        let turning = moment + arm.cross(&force);
+        for k in 0..3 {
+            self.bias[k] += force[k];
+            self.bias[3 + k] += turning[k];
+        }
+        for (first, (joint, linear, angular)) in self.jacobian.iter().enumerate() {
+            let (momentum, spin) = (linear * body.mass, body.inertia * angular);
+            let about_base = spin + arm.cross(&momentum);
+            self.bias[*joint] += linear.dot(&force) + angular.dot(&moment);
+            for k in 0..3 {
+                self.matrix[(*joint, k)] += momentum[k];
+                self.matrix[(*joint, 3 + k)] += about_base[k];
+            }
+            // The joints nearer to the base come later.
+            for (column, linear, angular) in &self.jacobian[first..] {
+                self.matrix[(*joint, *column)] += linear.dot(&momentum) + angular.dot(&spin);
             }
         }
     }
 
+    /// Adds the block of the base, the body's mass centre being at `arm` from its origin.
+    fn add_to_base(&mut self, body: &BodyMotion, arm: &Vector3<f64>) {
+        let first_moment = arm * body.mass;
+        let about = body.inertia + Matrix3::identity() * first_moment.dot(arm)
+            - first_moment * arm.transpose();
+        let crossed = first_moment.cross_matrix();
+        for column in 0..3 {
+            self.matrix[(column, column)] += body.mass;
+            for row in 0..3 {
+                self.matrix[(3 + row, column)] += crossed[(row, column)];
+                self.matrix[(3 + row, 3 + column)] += about[(row, column)];
+            }
+        }
+    }
+
+    /// The joints that move a body, from the body towards the base.
     fn fill_jacobian(&mut self, model: &Model, bodies: &Bodies, index: usize) {
         let motions = bodies.motions();
         let center = motions[index].center;
         self.jacobian.clear();
-        let axes = Matrix3::<f64>::identity();
-        for (k, e) in axes.column_iter().enumerate() {
-            let e = e.into_owned();
-            self.jacobian.push((k, e, Vector3::zeros()));
-            self.jacobian
-                .push((3 + k, e.cross(&(center - motions[0].origin)), e));
-        }
         let mut joint = index.checked_sub(1);
         while let Some(j) = joint {
             let carried = &motions[j + 1];
