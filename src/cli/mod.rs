@@ -13,6 +13,7 @@ mod fit;
 mod init;
 mod interrupt;
 mod log_lines;
+mod man;
 mod pareto;
 mod plan;
 mod progress;
@@ -92,6 +93,7 @@ enum Command {
     Init(init::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
+    Man(man::Arguments),
     Doctor(doctor::Arguments),
 }
 
@@ -141,6 +143,7 @@ pub fn run() -> ExitCode {
         Command::Init(arguments) => init::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
     };
     match result {

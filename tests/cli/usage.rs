@@ -17,11 +17,15 @@ fn help_names_every_command() {
         "verify",
         "disperse",
         "report",
+        "sample",
+        "export",
+        "batch",
         "simulate",
         "doctor",
         "init",
         "schema",
         "completions",
+        "man",
     ] {
         assert!(
             run.stdout
@@ -30,6 +34,31 @@ fn help_names_every_command() {
             "{command}"
         );
     }
+}
+
+#[test]
+fn the_manual_has_a_page_a_command() {
+    let folder = Folder::new(PROBLEM);
+    let run = folder.run(&["man", "pages"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    for (page, said) in [
+        ("ffsm-ipopt.1", "ffsm\\-ipopt\\-plan(1)"),
+        ("ffsm-ipopt-plan.1", "\\-\\-tolerance"),
+        ("ffsm-ipopt-export.1", "joint\\-trajectory"),
+    ] {
+        let text = folder.read(&format!("pages/{page}"));
+        assert!(
+            text.contains(".SH") && text.contains(said),
+            "{page}: {text}"
+        );
+    }
+    // Not of commands that are the program's own business.
+    assert!(
+        !folder
+            .path()
+            .join("pages/ffsm-ipopt-batch-worker.1")
+            .exists()
+    );
 }
 
 #[test]
