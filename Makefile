@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test python wheel deb slurm-check fuzz test-ipopt-3.14 random-tasks random-plans test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test python wheel deb book slurm-check fuzz test-ipopt-3.14 random-tasks random-plans test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -13,6 +13,9 @@ test: ## run every test in release
 
 python: ## test the Python package
 	scripts/python.sh
+
+book: ## make the book of docs/ in target/book, links checked
+	scripts/book.sh
 
 deb: ## build the Debian package and try it in a new Debian 12 (root, debootstrap)
 	scripts/deb.sh

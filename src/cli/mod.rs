@@ -154,3 +154,73 @@ pub fn run() -> ExitCode {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Cli;
+    use clap::CommandFactory;
+    use clap::error::ErrorKind;
+    use std::path::Path;
+
+    /// Words of a command line: between apostrophes or quotation marks nothing is taken apart, and a
+    /// comment ends it.
+    fn words(line: &str) -> Vec<String> {
+        let mut words = vec![String::new()];
+        let mut quote = None;
+        for c in line.chars() {
+            match (quote, c) {
+                (Some(end), c) if c == end => quote = None,
+                (None, '\'' | '"') => quote = Some(c),
+                (None, '#') if words.last().is_some_and(String::is_empty) => break,
+                (None, ' ') => words.push(String::new()),
+                (_, c) => {
+                    if let Some(last) = words.last_mut() {
+                        last.push(c);
+                    }
+                }
+            }
+        }
+        words.retain(|word| !word.is_empty());
+        words
+    }
+
+    /// Lines of code blocks that call the program.
+    fn commands(text: &str) -> Vec<&str> {
+        let mut inside = false;
+        let mut found = Vec::new();
+        for line in text.lines() {
+            if line.starts_with("```") {
+                inside = !inside;
+            }
+            let line = line.strip_prefix("$ ").unwrap_or(line);
+            if inside && line.starts_with("ffsm-ipopt ") {
+                found.push(line);
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn commands_in_the_documents_are_understood() {
+        let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let documents = std::fs::read_dir(top.join("docs")).unwrap();
+        let documents = documents.map(|entry| entry.unwrap().path());
+        let documents = documents.filter(|path| path.extension().is_some_and(|ends| ends == "md"));
+        let mut count = 0;
+        for path in documents.chain([top.join("README.md")]) {
+            let text = std::fs::read_to_string(&path).unwrap();
+            for line in commands(&text) {
+                // What is redirected is the shell's.
+                let line = line.split(" > ").next().unwrap_or(line);
+                let understood = Cli::command().try_get_matches_from(words(line));
+                let is_fine =
+                    |kind| matches!(kind, ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
+                if let Err(error) = understood {
+                    assert!(is_fine(error.kind()), "{}: {line}: {error}", path.display());
+                }
+                count += 1;
+            }
+        }
+        assert!(count > 15, "{count} commands");
+    }
+}
