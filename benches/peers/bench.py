@@ -75,7 +75,8 @@ def main() -> None:
         table.markdown(),
         "\nRatios are the peer's time over ours, medians of pairs of runs that took turns; peers "
         "have one BLAS thread.",
-        "Warm: the process is loaded; ours is a whole plan, set-up and error estimate included.",
+        "Warm: the process is loaded. A solve alone leaves out the build of CasADi and all of ours that "
+        "is outside the solver; else ours is a whole plan, set-up and error estimate included.",
         "Cold: each run is a new process. A process counts from start to end, ours with the files "
         "and the page it writes; within it, from the problem to the trajectory; CasADi's build "
         "and solve without its import, but with the loading of Ipopt.\n",
