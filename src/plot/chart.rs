@@ -14,6 +14,16 @@ pub(super) struct Bounds {
     pub colours: Vec<Colour>,
 }
 
+impl Bounds {
+    /// The colour of all of them, grey where they differ.
+    pub fn common_colour(&self) -> Colour {
+        match self.colours[..] {
+            [first, ref rest @ ..] if rest.iter().all(|colour| *colour == first) => first,
+            _ => Colour::Grey,
+        }
+    }
+}
+
 /// One panel of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {

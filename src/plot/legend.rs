@@ -57,7 +57,7 @@ impl Legend {
                 } else {
                     format!("{}{beyond}", bounds.label)
                 },
-                colour: Colour::Grey,
+                colour: bounds.common_colour(),
                 stroke: Stroke::Dashed,
                 width: 0.9,
                 marker: None,

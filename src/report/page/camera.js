@@ -72,6 +72,8 @@ function handle(canvas, camera) {
   });
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
+    // Who scrolls down the page is not to be held up; a pinch on a trackpad comes with ctrlKey.
+    if (document.activeElement !== canvas && !event.ctrlKey) return;
     event.preventDefault();
     camera.scale(Math.exp(-0.0015 * event.deltaY));
   }, { passive: false });
@@ -80,7 +82,7 @@ function handle(canvas, camera) {
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const [turn, zoom] = [turns[event.key], zooms[event.key]];
-    if (turn && event.shiftKey) camera.move(-0.5 * turn[0], -0.5 * turn[1]);
+    if (turn && event.shiftKey) camera.move(-0.5 * turn[0], 0.5 * turn[1]);
     else if (turn) camera.rotate(...turn);
     else if (zoom) camera.scale(zoom);
     else if (event.key === "Home") camera.see("home");

@@ -98,7 +98,7 @@ function makeCharts(section, numbers, clock) {
         const value = valueAt(numbers.x[curve.x], curve.y, time);
         if (value === undefined) return null;
         const dot = element("span", { className: "dot" });
-        dot.style.background = curve.colour;
+        dot.style.background = curve.colour === "#000000" ? "var(--ink)" : curve.colour;
         return element("div", {}, dot, `${curve.name} `, element("b", { textContent: told(value, curve.y) }));
       });
       readout.replaceChildren(element("div", { textContent: `${told(time, [to])} s` }), ...rows.filter(Boolean));
@@ -158,7 +158,7 @@ function download(name, type, text) {
 
 // Curves with a column of x in common stand beside it, those with another beside theirs.
 function csv(data, columns) {
-  const quoted = (text) => `"${(/^[=+\-@\t\r]/.test(text) ? `'${text}` : text).replaceAll('"', '""')}"`;
+  const quoted = (text) => `"${(/^[=+\-@\t\r]/.test(text) ? `'${text}` : text).replace(/"/g, '""')}"`;
   const table = [];
   for (const number of new Set(data.curves.map((curve) => curve.x))) {
     table.push([data.x_label, columns[number]]);

@@ -209,6 +209,9 @@ impl Drawing<'_> {
             let column: Vec<f64> = values.iter().map(|row| subject.factor * row[i]).collect();
             chart = chart.series(Series::line(name, &self.rows.t, &column));
         }
+        if limits.iter().any(|limit| *limit != limits[0]) {
+            return matched(chart, subject, names, limits);
+        }
         let bounds: Vec<f64> = distinct(limits)
             .iter()
             .map(|bound| subject.factor * bound)
@@ -219,8 +222,7 @@ impl Drawing<'_> {
                 chart.bounds(&format!("limit ±{}{}", short(high), subject.unit), &bounds)
             }
             [_, _] if names.len() == 1 => chart.bounds("limits", &bounds),
-            [_] | [_, _] => chart.bounds("limit", &bounds),
-            _ => chart.coloured_bounds("limits, each in its colour", &each(limits, subject.factor)),
+            _ => chart.bounds("limit", &bounds),
         }
     }
 
@@ -253,18 +255,42 @@ fn distinct(limits: &[Interval]) -> Vec<f64> {
     bounds
 }
 
-/// Every finite bound in the colour of the series that it bounds; one that several share is grey.
-fn each(limits: &[Interval], factor: f64) -> Vec<(f64, Colour)> {
-    let bounds = distinct(limits).into_iter().map(|bound| {
-        let holders = limits.iter().enumerate();
-        let mut holders = holders.filter(|(_, limit)| [limit.lower, limit.upper].contains(&bound));
-        let colour = match (holders.next(), holders.next()) {
-            (Some((i, _)), None) => Colour::of_series(i),
+/// The chart with limits that differ from series to series: in the colours of the series, or where
+/// several have the same, with their names.
+fn matched(mut chart: Chart, subject: &Subject<'_>, names: &[&str], limits: &[Interval]) -> Chart {
+    let mut groups: Vec<(Interval, Vec<usize>)> = Vec::new();
+    for (i, limit) in limits
+        .iter()
+        .enumerate()
+        .filter(|(_, limit)| !limit.is_free())
+    {
+        match groups.iter_mut().find(|(held, _)| held == limit) {
+            Some((_, holders)) => holders.push(i),
+            None => groups.push((*limit, vec![i])),
+        }
+    }
+    let drawn = |(limit, holders): &(Interval, Vec<usize>)| -> Vec<(f64, Colour)> {
+        let colour = match holders[..] {
+            [i] => Colour::of_series(i),
             _ => Colour::Grey,
         };
-        (factor * bound, colour)
-    });
-    bounds.collect()
+        let finite = [limit.lower, limit.upper]
+            .into_iter()
+            .filter(|bound| bound.is_finite());
+        finite
+            .map(|bound| (subject.factor * bound, colour))
+            .collect()
+    };
+    if groups.len() > 1 && groups.iter().all(|(_, holders)| holders.len() == 1) {
+        let bounds: Vec<_> = groups.iter().flat_map(drawn).collect();
+        return chart.coloured_bounds("limits, each in its colour", &bounds);
+    }
+    for group in &groups {
+        let held: Vec<&str> = group.1.iter().map(|i| names[*i]).collect();
+        let label = format!("limit of {}", held.join(", "));
+        chart = chart.coloured_bounds(&label, &drawn(group));
+    }
+    chart
 }
 
 /// The chart with the motion along the straight joint path.

@@ -8,6 +8,7 @@ mod head;
 mod marks;
 mod pose;
 mod scene;
+mod scrolling;
 mod task_table;
 mod texts;
 
@@ -25,6 +26,7 @@ use charts::Panel;
 use head::head;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use scene::Scene;
+use scrolling::scrolling;
 use texts::Fact;
 
 /// One script; a file uses what those before it define.
@@ -140,7 +142,7 @@ fn playback(scene: &Scene) -> Markup {
             p.hint {
                 "To scale. Dashed: the base at the start. The base is drawn as the block of even "
                 "density with its mass and inertia. "
-                @if scene.has_marks() { "Green: the goal, and way-points. " }
+                "Green: the goal" @if scene.has_way_points() { ", and way-points" } ". "
                 @if scene.keeps_apart() {
                     "Dotted: what is kept apart; other collisions are not checked. "
                 } @else {
@@ -149,7 +151,8 @@ fn playback(scene: &Scene) -> Markup {
             }
             p.hint #keys {
                 "Drag, or the arrow keys, turn the view; shift and drag, or the right button, move it; "
-                "the wheel, two fingers, or + and − zoom; the space bar plays."
+                "two fingers, + and −, or the wheel once the picture has been clicked, zoom; "
+                "the space bar plays."
             }
             div.frames aria-hidden="true" {}
             script #scene type="application/json" { (PreEscaped(json)) }
@@ -204,31 +207,25 @@ fn charts_over_time(panels: &[Panel]) -> Markup {
 
 /// What is to be done.
 fn task(problem: &Problem) -> Markup {
-    html! {
-        (scrolling("What is asked of every joint", &html! {
-            table.joints {
-                thead {
-                    tr {
-                        th scope="col" { "joint" }
-                        @for head in task_table::JOINT_COLUMNS { th scope="col" { (head) } }
-                    }
-                }
-                @for row in task_table::joints(problem) {
-                    tr {
-                        th scope="row" { (row.name) }
-                        @for cell in row.cells { td { (cell) } }
-                    }
+    let joints = html! {
+        table.joints {
+            thead {
+                tr {
+                    th scope="col" { "joint" }
+                    @for head in task_table::JOINT_COLUMNS { th scope="col" { (head) } }
                 }
             }
-        }))
-        (facts(&task_table::rest(problem)))
-    }
-}
-
-/// A table that may be wider than the window; it takes the focus, so that keys scroll it.
-fn scrolling(label: &str, table: &Markup) -> Markup {
+            @for row in task_table::joints(problem) {
+                tr {
+                    th scope="row" { (row.name) }
+                    @for cell in row.cells { td { (cell) } }
+                }
+            }
+        }
+    };
     html! {
-        div.scrolling tabindex="0" role="region" aria-label=(label) { (table) }
+        (scrolling("What is asked of every joint", &joints))
+        (facts(&task_table::rest(problem)))
     }
 }
 
@@ -269,12 +266,8 @@ fn history(solution: &Solution) -> Markup {
 
 /// One row for each of the optima that a search found.
 fn optima(search: &Search) -> Markup {
-    html! {
-        p {
-            (search.solved) " of " (search.tried) " starts were solved (seed " (search.seed)
-            "); there may be optima that none of them led to."
-        }
-        (scrolling("Every optimum", &html! { table.history {
+    let table = html! {
+        table.history {
             thead {
                 tr {
                     @for head in ["", "cost J", "largest base angle", "final", "hits", "first start", ""] {
@@ -293,7 +286,14 @@ fn optima(search: &Search) -> Markup {
                     td { (one.status.map_or("first mesh", Status::words)) }
                 }
             }
-        } }))
+        }
+    };
+    html! {
+        p {
+            (search.solved) " of " (search.tried) " starts were solved (seed " (search.seed)
+            "); there may be optima that none of them led to."
+        }
+        (scrolling("Every optimum", &table))
         @if search.optima.len() > OPTIMA {
             p { "And " (search.optima.len() - OPTIMA) " more on the first mesh." }
         }

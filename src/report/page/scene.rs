@@ -102,9 +102,9 @@ impl Scene {
         }
     }
 
-    /// Whether goals or way-points are drawn.
-    pub fn has_marks(&self) -> bool {
-        !self.marks.is_empty()
+    /// Whether way-points are drawn beside the goal.
+    pub fn has_way_points(&self) -> bool {
+        self.marks.len() > 1
     }
 
     /// Whether anything is kept apart.
