@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . scripts/install.sh
 
 home=target/page
-problems=(table1-relaxed capture dual-arm chaser-7dof tumbling)
+problems=(config/{table1-relaxed,capture,dual-arm,chaser-7dof,tumbling}.toml tests/page/*.toml)
 
 FFSM_CHROMIUM=${FFSM_CHROMIUM:-$(command -v chromium || true)}
 if [ -z "$FFSM_CHROMIUM" ]; then
@@ -43,7 +43,8 @@ fi
 pages=$home/pages
 rm -rf "$pages"
 for problem in "${problems[@]}"; do
-  "$built/ffsm-ipopt" plan "config/$problem.toml" --quiet --out "$pages/$problem"
+  case $problem in *-robot.toml) continue ;; esac
+  "$built/ffsm-ipopt" plan "$problem" --quiet --out "$pages/$(basename "$problem" .toml)"
 done
 
 FFSM_PAGE_HOME=$PWD/$home FFSM_PAGES=$PWD/$pages FFSM_CHROMIUM=$FFSM_CHROMIUM \

@@ -114,6 +114,17 @@ test("a chart is had as SVG with its legend and as CSV with its numbers", async 
   await close();
 });
 
+test("a name that a spreadsheet would compute is quoted for it", async () => {
+  const { page, close } = await open(browser, "hostile-names");
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    chart(page, "Joint angles").getByRole("button", { name: "as CSV" }).click(),
+  ]);
+  const [head] = readFileSync(await download.path(), "utf8").split("\r\n");
+  assert.ok(head.endsWith(`,"'=1+1""'<img id=injected>: Angle (deg)"`), head);
+  await close();
+});
+
 test("mesh lines are drawn when asked for", async () => {
   const { page, close } = await open(browser, NAME);
   const shown = () => page.locator("#charts [data-divisions]").first().evaluate((part) => getComputedStyle(part).display);
@@ -132,5 +143,15 @@ test("accelerations are in degrees, and limits that differ have the colours of t
   assert.equal(await button.count(), 1);
   const colours = await figure.locator(".chart [data-curve] path[stroke-dasharray]").evaluateAll((lines) => lines.map((line) => line.getAttribute("stroke")));
   assert.ok(!colours.includes("#808080"), colours.join());
+  await close();
+});
+
+test("limits that some joints share name them", async () => {
+  const { page, close } = await open(browser, "dual-arm");
+  const legends = await chart(page, "Joint angles").locator(".legend button").allTextContents();
+  const limits = legends.filter((text) => text.startsWith("limit of "));
+  assert.ok(limits.length > 1, legends.join("; "));
+  const named = limits.flatMap((text) => text.replace("limit of ", "").replace(" (beyond the axis)", "").split(", "));
+  assert.deepEqual(named.sort(), ["left_elbow", "left_roll", "left_yaw", "right_elbow", "right_roll", "right_yaw"]);
   await close();
 });

@@ -71,3 +71,15 @@ test("six pictures of the motion are printed", async () => {
   assert.ok(!(await page.locator(".stages").isVisible()));
   await close();
 });
+
+test("names from files are text wherever they stand", async () => {
+  const { page, faults, close } = await open(browser, "hostile-names");
+  await page.locator("#charts figure .chart").nth(3).hover();
+  assert.equal(await page.locator("#injected").count(), 0);
+  const name = "</script><i id=injected>";
+  assert.ok((await page.locator("table.joints th").allTextContents()).includes(name));
+  const legends = await page.locator(".legend button").allTextContents();
+  assert.ok(legends.includes(name) && legends.includes("=1+1\"'<img id=injected>"), legends.join());
+  assert.deepEqual(faults, []);
+  await close();
+});

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { launch, open, solution } from "./browser.mjs";
-import { discs, seek } from "./pixels.mjs";
+import { discs, ring, seek } from "./pixels.mjs";
 
 let browser;
 before(async () => { browser = await launch(); });
@@ -42,6 +42,19 @@ function fit(metres, pixels) {
   return ([x, y]) => [middle[0] + scale * (x - centre[0]), middle[1] - scale * (y - centre[1])];
 }
 
+// From metres to pixels of the first picture, by the joints at the start; and how far off these are.
+async function mapping(page, trajectory, arm) {
+  await seek(page, 0);
+  const found = await discs(page);
+  assert.equal(found.length, arm.length);
+  const start = joints(trajectory, arm, 0);
+  const fits = orders(found).map((order) => {
+    const place = fit(start, order);
+    return { place, gap: Math.max(...start.map((point, k) => off(place(point), order[k]))) };
+  });
+  return fits.reduce((best, one) => (one.gap < best.gap ? one : best));
+}
+
 for (const [name, arm] of Object.entries(ARMS)) {
   test(`${name}: the drawn joints are those of the solution to a pixel`, async () => {
     const { page, faults, close } = await open(browser, name);
@@ -51,14 +64,7 @@ for (const [name, arm] of Object.entries(ARMS)) {
       await seek(page, trajectory.t[k] / trajectory.t[last]);
       return discs(page);
     };
-    const found = await at(0);
-    assert.equal(found.length, arm.length);
-    const start = joints(trajectory, arm, 0);
-    const fits = orders(found).map((order) => {
-      const place = fit(start, order);
-      return { place, gap: Math.max(...start.map((point, k) => off(place(point), order[k]))) };
-    });
-    const { place, gap } = fits.reduce((best, one) => (one.gap < best.gap ? one : best));
+    const { place, gap } = await mapping(page, trajectory, arm);
     assert.ok(gap < 1, `${gap} pixels at the start`);
     for (const share of [0.15, 0.3, 0.45, 0.6, 0.8, 1]) {
       const k = Math.round(share * last);
@@ -72,6 +78,43 @@ for (const [name, arm] of Object.entries(ARMS)) {
     await close();
   });
 }
+
+test("goals and way-points are drawn where the problem has them", async () => {
+  // In the base frame of the start, which is not turned; in inertial axes.
+  for (const [name, at] of [
+    ["capture", ({ base_position: [[x, y]] }) => [x + 0.75, y + 0.65]],
+    ["way-point", () => [0.9, -0.1]],
+  ]) {
+    const { page, close } = await open(browser, name);
+    const { trajectory } = solution(name);
+    const { place } = await mapping(page, trajectory, ARMS.capture);
+    const { circle, inside } = await ring(page, place(at(trajectory)));
+    assert.ok(circle > 0.7 && inside < 0.3, `${name}: ${circle} of the ring, ${inside} within`);
+    await close();
+  }
+});
+
+test("the plan's arm is at goals and way-points in time", async () => {
+  for (const name of ["capture", "way-point", "pose-in-space"]) {
+    const { page, close } = await open(browser, name);
+    const { motions: [{ frames }], marks, tips: [tip], links, planar } =
+      await page.evaluate(() => JSON.parse(document.getElementById("scene").textContent));
+    assert.ok(marks.some((mark) => mark.at), name);
+    for (const { at, axes, part, within, label } of marks) {
+      const frame = frames[Math.round(part * (frames.length - 1))];
+      const point = (k) => frame.slice(3 * k, 3 * k + 3);
+      // Along each axis of the goal's frame.
+      const gap = at ? Math.hypot(...point(tip).map((value, i) => value - at[i])) : 0;
+      assert.ok(gap < Math.sqrt(3) * within + 1e-3, `${name}, ${label}: ${gap} m`);
+      if (!planar || !axes.length) continue;
+      // The hand points along its x axis; 0.05 rad are allowed.
+      const [from, to] = links.find(([, end]) => end === tip).map(point);
+      const angle = ([x, y]) => Math.atan2(y, x);
+      assert.ok(Math.abs(angle([to[0] - from[0], to[1] - from[1]]) - angle(axes[0])) < 0.052, name);
+    }
+    await close();
+  }
+});
 
 test("hands and keys zoom, move and turn the view, and home takes it back", async () => {
   const { page, faults, close } = await open(browser, "capture");
@@ -100,6 +143,10 @@ test("hands and keys zoom, move and turn the view, and home takes it back", asyn
   same(await discs(page), home.map(([x, y]) => [x + 40, y - 25]), "moved with the mouse");
   await page.keyboard.press("Home");
   same(await discs(page), home, "home by key");
+  await page.keyboard.press("Shift+ArrowUp");
+  (await discs(page)).forEach(([x, y], k) => assert.ok(Math.abs(x - home[k][0]) < 0.6 && y < home[k][1] - 5, "moved up"));
+  await page.keyboard.press("Shift+ArrowDown");
+  same(await discs(page), home, "moved down again");
 
   await page.mouse.wheel(0, -200);
   assert.ok(width(await discs(page)) > 1.2 * width(home));

@@ -29,6 +29,23 @@ export const discs = (page) => page.evaluate(() => {
   return found.map((point) => point.map((value) => value / ratio));
 });
 
+/** Parts of a ring of 7 pixels about a point, and of one of 3, that have the colour of goals. */
+export const ring = (page, at) => page.evaluate(([x, y]) => {
+  const canvas = document.querySelector(".stage canvas");
+  const ratio = canvas.width / canvas.clientWidth;
+  const pen = canvas.getContext("2d");
+  const isGoal = (px, py) => {
+    const { data } = pen.getImageData(Math.round(ratio * px) - 1, Math.round(ratio * py) - 1, 3, 3);
+    const near = (k) => data[k + 3] > 120 && data[k] < 80 && data[k + 1] > 80 && data[k + 2] < 140;
+    return [...Array(9).keys()].some((k) => near(4 * k));
+  };
+  const part = (radius) => {
+    const angles = [...Array(24).keys()].map((k) => (k * Math.PI) / 12);
+    return angles.filter((a) => isGoal(x + radius * Math.cos(a), y + radius * Math.sin(a))).length / 24;
+  };
+  return { circle: part(7), inside: part(3) };
+}, at);
+
 /** Moves the playback to a part of the duration. */
 export const seek = (page, part) => page.evaluate((value) => {
   const slider = document.querySelector("#playback .controls input");
