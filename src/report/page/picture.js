@@ -79,7 +79,9 @@ function makePainter(scene, camera) {
       stroke([...path, frame[tip]], colours.path, 1);
     }
     for (const [a, b] of scene.box_edges) stroke([start[a], start[b]], colours.start, 1, [4, 4]);
-    for (const { one, number } of ghosts) skeleton(one, part, colours.ghosts[number % colours.ghosts.length]);
+    // The second is dashed: they may lie upon each other.
+    for (const { one, number } of ghosts)
+      skeleton(one, part, colours.ghosts[number % colours.ghosts.length], number % 2 ? [6, 6] : []);
     if (marks) for (const mark of scene.marks) {
       pen.globalAlpha = 0.55;
       if (mark.of_joints) skeleton(motion, mark.part, colours.mark, [1, 4]);
