@@ -20,10 +20,10 @@ pub(super) struct JointRow {
 pub(super) const JOINT_COLUMNS: [&str; 6] = [
     "start",
     "goal",
-    "position",
-    "rate",
-    "control u",
-    "torque or force",
+    "position limit",
+    "rate limit",
+    "limit of u",
+    "torque or force limit",
 ];
 
 /// One row a joint.
