@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test python wheel deb book slurm-check fuzz test-ipopt-3.14 random-tasks random-plans test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean
+.PHONY: help build test python wheel deb book slurm-check fuzz test-ipopt-3.14 random-tasks random-plans test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean page
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -22,6 +22,9 @@ deb: ## build the Debian package and try it in a new Debian 12 (root, debootstra
 
 wheel: ## build the Python wheel with Ipopt inside and try it in a new Debian 12 (root, debootstrap)
 	scripts/wheel.sh
+
+page: ## test report.html in Chromium (installs Debian's chromium, two packages of npm)
+	scripts/page.sh
 
 slurm-check: ## plan batches on a Slurm of one node, from Debian's packages, with tasks killed (root)
 	scripts/slurm-check.sh

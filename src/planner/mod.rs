@@ -20,7 +20,7 @@ pub use conditioning::Conditioning;
 pub use doubt::Doubt;
 pub use error::PlanError;
 pub use event::Event;
-pub use joint_space::matpm_attitudes;
+pub use joint_space::matpm_motion;
 pub use method::Method;
 pub use plan::{Diagnosis, LimitFinding, Plan, Starts, Status, Timing};
 pub use verification::{Judgement, judge, judge_solved};

@@ -17,6 +17,18 @@ pub(super) enum Direction {
     Up,
 }
 
+/// What elements belong to, for scripts that show and hide it. Numbers are those of
+/// [`Chart::entry_of_series`](super::Chart).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// What the entry of the legend with this number stands for.
+    Curve(usize),
+    /// That entry itself.
+    Entry(usize),
+    /// Boundaries of segments.
+    Divisions,
+}
+
 /// One element. Lengths are points, y points down.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Element {
@@ -25,6 +37,10 @@ pub(super) enum Element {
     Clip([f64; 4]),
     /// Ends the window.
     Unclip,
+    /// Begins what belongs together. Groups do not nest, and nothing is drawn for them.
+    Group(Part),
+    /// Ends it.
+    Ungroup,
     /// An open line of two points and more.
     Path {
         points: Vec<[f64; 2]>,
@@ -82,6 +98,13 @@ impl Canvas {
     /// Ends the window.
     pub fn unclip(&mut self) {
         self.elements.push(Element::Unclip);
+    }
+
+    /// Draws what belongs to `part`.
+    pub fn group(&mut self, part: Part, draw: impl FnOnce(&mut Self)) {
+        self.elements.push(Element::Group(part));
+        draw(self);
+        self.elements.push(Element::Ungroup);
     }
 
     /// An open line.

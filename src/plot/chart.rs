@@ -10,6 +10,18 @@ use super::shape::Shape;
 pub(super) struct Bounds {
     pub label: String,
     pub values: Vec<f64>,
+    /// One a value, as far as there are any; grey beyond.
+    pub colours: Vec<Colour>,
+}
+
+impl Bounds {
+    /// The colour of all of them, grey where they differ.
+    pub fn common_colour(&self) -> Colour {
+        match self.colours[..] {
+            [first, ref rest @ ..] if rest.iter().all(|colour| *colour == first) => first,
+            _ => Colour::Grey,
+        }
+    }
 }
 
 /// One panel of a figure.
@@ -70,6 +82,18 @@ impl Chart {
         self.bounds.push(Bounds {
             label: label.into(),
             values: values.to_vec(),
+            colours: Vec::new(),
+        });
+        self
+    }
+
+    /// The same with a colour for each: that of the series which it bounds.
+    #[must_use]
+    pub fn coloured_bounds(mut self, label: &str, bounds: &[(f64, Colour)]) -> Self {
+        self.bounds.push(Bounds {
+            label: label.into(),
+            values: bounds.iter().map(|(value, _)| *value).collect(),
+            colours: bounds.iter().map(|(_, colour)| *colour).collect(),
         });
         self
     }

@@ -56,8 +56,8 @@ impl Colour {
         }
     }
 
-    /// As SVG has it.
-    pub(super) fn hex(self) -> String {
+    /// As SVG and CSS have it.
+    pub fn hex(self) -> String {
         let [red, green, blue] = self.rgb();
         format!("#{red:02X}{green:02X}{blue:02X}")
     }

@@ -1,6 +1,6 @@
 //! A chart on the canvas.
 
-use super::canvas::{Anchor, Canvas};
+use super::canvas::{Anchor, Canvas, Part};
 use super::legend::Legend;
 use super::marks::{BAND, mark};
 use super::ruler::{Ruler, Scale, Tick};
@@ -43,6 +43,18 @@ impl Chart {
             })
         };
         self.series.iter().map(&mut colour).collect()
+    }
+
+    /// The number of the entry in the legend that series `i` belongs to: its own, or without a label
+    /// that of the last series before it that has one.
+    pub(super) fn entry_of_series(&self, i: usize) -> usize {
+        let labelled = |k: &usize| !self.series[*k].label.is_empty();
+        (0..=i).rev().find(labelled).unwrap_or(i)
+    }
+
+    /// The number of the entry of the bounds `j`.
+    pub(super) fn entry_of_bounds(&self, j: usize) -> usize {
+        self.series.len() + j
     }
 
     fn x_values(&self) -> Vec<f64> {
@@ -204,20 +216,27 @@ impl<'a> Layout<'a> {
         frame.grid(canvas, chart);
         // Areas behind lines.
         for area in [true, false] {
-            for (series, colour) in chart.series.iter().zip(chart.colours()) {
+            for (i, (series, colour)) in chart.series.iter().zip(chart.colours()).enumerate() {
                 if matches!(series.points, Points::Band(_)) == area {
-                    frame.series(canvas, series, colour);
+                    canvas.group(Part::Curve(chart.entry_of_series(i)), |canvas| {
+                        frame.series(canvas, series, colour);
+                    });
                 }
             }
         }
         for shape in &chart.shapes {
             frame.shape(canvas, shape);
         }
-        let values = chart.bounds.iter().flat_map(|bounds| &bounds.values);
-        for value in values.filter(|value| self.y.holds(**value)) {
-            if let Some([_, y]) = frame.place([self.x.low, *value]) {
-                canvas.path(&[[left, y], [right, y]], Colour::Grey, 0.9, Stroke::Dashed);
-            }
+        for (j, bounds) in chart.bounds.iter().enumerate() {
+            canvas.group(Part::Curve(chart.entry_of_bounds(j)), |canvas| {
+                for (i, value) in bounds.values.iter().enumerate() {
+                    let place = frame.place([self.x.low, *value]);
+                    if let Some([_, y]) = place.filter(|_| self.y.holds(*value)) {
+                        let colour = bounds.colours.get(i).copied().unwrap_or(Colour::Grey);
+                        canvas.path(&[[left, y], [right, y]], colour, 0.9, Stroke::Dashed);
+                    }
+                }
+            });
         }
         canvas.unclip();
         let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
@@ -268,12 +287,17 @@ impl Frame {
                 );
             }
         }
-        for division in chart.divisions.iter().filter(|x| self.x.holds(**x)) {
-            if let Some([x, _]) = self.place([*division, self.y.low]) {
-                let line = [[x, self.top], [x, self.top + self.height]];
-                canvas.path(&line, Colour::Light, 0.7, Stroke::Solid);
-            }
+        if chart.divisions.is_empty() {
+            return;
         }
+        canvas.group(Part::Divisions, |canvas| {
+            for division in chart.divisions.iter().filter(|x| self.x.holds(**x)) {
+                if let Some([x, _]) = self.place([*division, self.y.low]) {
+                    let line = [[x, self.top], [x, self.top + self.height]];
+                    canvas.path(&line, Colour::Light, 0.7, Stroke::Solid);
+                }
+            }
+        });
     }
 
     fn axes(&self, canvas: &mut Canvas, chart: &Chart) {

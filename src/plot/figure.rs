@@ -2,9 +2,10 @@
 
 use super::canvas::Canvas;
 use super::chart::Chart;
+use super::contents::Contents;
 use super::draw::Layout;
 use super::raster::{PlotError, png};
-use super::svg::svg;
+use super::svg::{Groups, svg};
 
 /// Width of a figure on a two-column page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +66,22 @@ impl Figure {
     /// The figure as an SVG document.
     pub fn svg(&self) -> String {
         let (canvas, height) = self.drawn();
-        svg(&canvas, &self.description, self.width.points(), height)
+        let size = [self.width.points(), height];
+        svg(&canvas, &self.description, size, Groups::Left)
+    }
+
+    /// The same for a page with a script: what an entry of the legend stands for is a group with
+    /// the attribute `data-curve`, the entry one with `data-entry`, both its number, and the
+    /// boundaries of segments are one with `data-divisions`.
+    pub fn svg_with_groups(&self) -> String {
+        let (canvas, height) = self.drawn();
+        let size = [self.width.points(), height];
+        svg(&canvas, &self.description, size, Groups::Told)
+    }
+
+    /// What every panel shows, as numbers.
+    pub fn contents(&self) -> Vec<Contents<'_>> {
+        self.panels.iter().map(Contents::of).collect()
     }
 
     /// The figure as PNG, 288 pixels an inch.

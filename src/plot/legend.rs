@@ -1,6 +1,6 @@
 //! The legend: samples and labels in rows above the chart.
 
-use super::canvas::{Anchor, Canvas};
+use super::canvas::{Anchor, Canvas, Part};
 use super::marks::{BAND, mark};
 use super::series::Points;
 use super::text::text_width;
@@ -17,6 +17,7 @@ const BETWEEN: f64 = 9.0;
 
 #[derive(Debug, Clone)]
 struct Entry {
+    number: usize,
     label: String,
     colour: Colour,
     stroke: Stroke,
@@ -36,8 +37,9 @@ impl Legend {
     /// The legend of `chart` with rows of at most `width`; `shown` tells whether bounds are drawn.
     pub fn new(chart: &Chart, width: f64, shown: &[bool]) -> Self {
         let mut entries = Vec::new();
-        for (series, colour) in chart.series.iter().zip(chart.colours()) {
+        for (i, (series, colour)) in chart.series.iter().zip(chart.colours()).enumerate() {
             entries.push(Entry {
+                number: chart.entry_of_series(i),
                 label: series.label.clone(),
                 colour,
                 stroke: series.stroke,
@@ -46,22 +48,25 @@ impl Legend {
                 area: matches!(series.points, Points::Band(_)),
             });
         }
-        for (bounds, shown) in chart.bounds.iter().zip(shown) {
+        for (j, (bounds, shown)) in chart.bounds.iter().zip(shown).enumerate() {
             let beyond = if *shown { "" } else { " (beyond the axis)" };
             entries.push(Entry {
+                number: chart.entry_of_bounds(j),
                 label: if bounds.label.is_empty() {
                     String::new()
                 } else {
                     format!("{}{beyond}", bounds.label)
                 },
-                colour: Colour::Grey,
+                colour: bounds.common_colour(),
                 stroke: Stroke::Dashed,
                 width: 0.9,
                 marker: None,
                 area: false,
             });
         }
-        entries.extend(chart.entries.iter().map(|(label, colour, stroke)| Entry {
+        let others = chart.entries.iter().enumerate();
+        entries.extend(others.map(|(k, (label, colour, stroke))| Entry {
+            number: chart.entry_of_bounds(chart.bounds.len() + k),
             label: label.clone(),
             colour: *colour,
             stroke: *stroke,
@@ -97,24 +102,26 @@ impl Legend {
         for (k, row) in self.rows.iter().enumerate() {
             let middle = y + ROW * (k as f64 + 0.5);
             for (offset, entry) in row {
-                let from = x + offset;
-                let line = [[from, middle], [from + SAMPLE, middle]];
-                if entry.area {
-                    let corners = [
-                        [from, middle - 3.0],
-                        [from + SAMPLE, middle - 3.0],
-                        [from + SAMPLE, middle + 3.0],
-                        [from, middle + 3.0],
-                    ];
-                    canvas.polygon(&corners, None, Some((entry.colour, BAND)));
-                } else {
-                    canvas.path(&line, entry.colour, entry.width, entry.stroke);
-                }
-                if let Some(marker) = entry.marker {
-                    mark(canvas, [from + 0.5 * SAMPLE, middle], marker, entry.colour);
-                }
-                let at = [from + SAMPLE + GAP, middle + 0.35 * SIZE];
-                canvas.text(at, Anchor::Start, SIZE, &entry.label);
+                canvas.group(Part::Entry(entry.number), |canvas| {
+                    let from = x + offset;
+                    let line = [[from, middle], [from + SAMPLE, middle]];
+                    if entry.area {
+                        let corners = [
+                            [from, middle - 3.0],
+                            [from + SAMPLE, middle - 3.0],
+                            [from + SAMPLE, middle + 3.0],
+                            [from, middle + 3.0],
+                        ];
+                        canvas.polygon(&corners, None, Some((entry.colour, BAND)));
+                    } else {
+                        canvas.path(&line, entry.colour, entry.width, entry.stroke);
+                    }
+                    if let Some(marker) = entry.marker {
+                        mark(canvas, [from + 0.5 * SAMPLE, middle], marker, entry.colour);
+                    }
+                    let at = [from + SAMPLE + GAP, middle + 0.35 * SIZE];
+                    canvas.text(at, Anchor::Start, SIZE, &entry.label);
+                });
             }
         }
     }

@@ -63,6 +63,7 @@ impl Painter {
         match element {
             Element::Clip(window) => self.clip(window),
             Element::Unclip => self.is_clipped = false,
+            Element::Group(_) | Element::Ungroup => {}
             Element::Path {
                 points,
                 colour,

@@ -49,6 +49,8 @@ pub(super) enum Points {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     pub(super) label: String,
+    /// Where it has another name than its label.
+    pub(super) name: Option<String>,
     pub(super) points: Points,
     pub(super) colour: Option<Colour>,
     pub(super) stroke: Stroke,
@@ -60,6 +62,7 @@ impl Series {
     fn new(label: &str, points: Points) -> Self {
         Self {
             label: label.into(),
+            name: None,
             points,
             colour: None,
             stroke: Stroke::Solid,
@@ -116,6 +119,13 @@ impl Series {
         );
         let points = (0..x.len()).map(|k| [x[k], lower[k], upper[k]]).collect();
         Self::new(label, Points::Band(points))
+    }
+
+    /// What [`Contents`](super::Contents) call it, its label unless said.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        self.name = Some(name.into());
+        self
     }
 
     /// This colour instead of the next of the palette.

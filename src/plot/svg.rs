@@ -1,15 +1,27 @@
 //! A canvas as SVG.
 
 use super::Colour;
-use super::canvas::{Anchor, Canvas, Direction, Element, RING, dashes};
+use super::canvas::{Anchor, Canvas, Direction, Element, Part, RING, dashes};
 use crate::printable::xml_text;
 use std::fmt::{Display, Write};
 
 /// The family named in the SVG: the one the PNG is drawn with, then common ones of its metrics.
 const FAMILY: &str = "'DejaVu Sans', Verdana, sans-serif";
 
+/// Whether the document says what belongs to which entry of the legend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Groups {
+    Told,
+    Left,
+}
+
 /// The whole document, in points, on white.
-pub(super) fn svg(canvas: &Canvas, description: &str, width: f64, height: f64) -> String {
+pub(super) fn svg(
+    canvas: &Canvas,
+    description: &str,
+    [width, height]: [f64; 2],
+    groups: Groups,
+) -> String {
     let [width, height] = [width, height].map(number);
     let mut document = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" \
@@ -17,7 +29,9 @@ pub(super) fn svg(canvas: &Canvas, description: &str, width: f64, height: f64) -
          <title>{}</title>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\"/>\n",
         xml_text(description),
     );
-    for element in &canvas.elements {
+    let is_group = |element: &&Element| matches!(element, Element::Group(_) | Element::Ungroup);
+    let left = |element: &&Element| groups == Groups::Left && is_group(element);
+    for element in canvas.elements.iter().filter(|element| !left(element)) {
         document.push_str(&of(element));
         document.push('\n');
     }
@@ -35,6 +49,10 @@ fn of(element: &Element) -> String {
             )
         }
         Element::Unclip => "</svg>".into(),
+        Element::Group(Part::Curve(entry)) => format!("<g data-curve=\"{entry}\">"),
+        Element::Group(Part::Entry(entry)) => format!("<g data-entry=\"{entry}\">"),
+        Element::Group(Part::Divisions) => "<g data-divisions=\"\">".into(),
+        Element::Ungroup => "</g>".into(),
         Element::Path {
             points,
             colour,
@@ -158,10 +176,25 @@ mod tests {
     }
 
     #[test]
+    fn groups_are_told_where_they_are_asked_for() {
+        let mut canvas = Canvas::default();
+        canvas.group(Part::Curve(3), |canvas| {
+            canvas.text([0.0, 0.0], Anchor::Start, 7.0, "a");
+        });
+        let with = svg(&canvas, "", [10.0, 10.0], Groups::Told);
+        let without = svg(&canvas, "", [10.0, 10.0], Groups::Left);
+        assert!(with.contains("<g data-curve=\"3\">\n<text") && !without.contains("<g"));
+        let left = with
+            .replace("<g data-curve=\"3\">\n", "")
+            .replace("</g>\n", "");
+        assert_eq!(left, without);
+    }
+
+    #[test]
     fn texts_cannot_break_the_document() {
         let mut canvas = Canvas::default();
         canvas.text([0.0, 0.0], Anchor::Start, 7.0, "a < b & \"c\"");
-        let svg = svg(&canvas, "<x>", 10.0, 10.0);
+        let svg = svg(&canvas, "<x>", [10.0, 10.0], Groups::Left);
         assert!(svg.contains("a &lt; b &amp; &quot;c&quot;") && svg.contains("<title>&lt;x&gt;"));
     }
 }

@@ -75,7 +75,9 @@ impl<'a, O: Ocp> Assessor<'a, O> {
         let objective_error = objective_error(self.ocp, solved);
         let mut verdict = self.verdict(solved, errors.max(), &outside, &removable);
         let mut next_tolerance = self.settings.tolerance;
-        let is_inexact = |part: f64| !(objective_error.abs() <= part * solved.objective.abs());
+        let is_inexact = |part: f64| {
+            objective_error.is_nan() || objective_error.abs() > part * solved.objective.abs()
+        };
         if self.settings.objective_tolerance.is_some_and(is_inexact) {
             next_tolerance = next_tolerance.min(FALL * errors.max());
             if verdict.is_converged() {

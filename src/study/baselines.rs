@@ -2,7 +2,7 @@
 
 use crate::largest::largest;
 use crate::ocp::Interval;
-use crate::planner::matpm_attitudes;
+use crate::planner::matpm_motion;
 use crate::problem::Problem;
 use crate::system::{Metrics, Trajectory, base_angles, straight_motion};
 use crate::transcription::Discretization;
@@ -79,6 +79,8 @@ pub struct Baselines {
     pub matpm: Option<BaseMotion>,
     /// The motion along the straight joint path, at [`STEPS`](Self::STEPS) even times more than one.
     pub straight_motion: Option<Trajectory>,
+    /// The motion by MATPM, at times that are not even.
+    pub matpm_motion: Option<Trajectory>,
 }
 
 impl Baselines {
@@ -91,12 +93,13 @@ impl Baselines {
         let Some(task) = joint_task(problem, plan) else {
             return Self::default();
         };
-        let matpm = matpm_attitudes(&task).map(|motion| BaseMotion::of(&motion));
+        let matpm = matpm_motion(&task);
         let straight = straight_motion(&task, plan.duration, Self::STEPS);
         Self {
             straight: Some(BaseMotion::of(&straight)),
-            matpm,
+            matpm: matpm.as_ref().map(BaseMotion::of),
             straight_motion: Some(straight),
+            matpm_motion: matpm,
         }
     }
 }

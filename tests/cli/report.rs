@@ -48,6 +48,9 @@ fn a_page_needs_nothing_else_and_says_what_is_in_the_solution() {
         "limit ±85.944°".into(),
         "limit ±51.566°/s".into(),
         "shares no code".into(),
+        "limits, each in its colour".into(),
+        "Acceleration (deg/s²)".into(),
+        "Collisions are not checked".into(),
         solution["provenance"]["robot_sha256"]
             .as_str()
             .unwrap()
@@ -76,6 +79,11 @@ fn what_is_played_is_the_plan_and_the_straight_joint_path() {
     assert!((last(&motions[1]["turned"]) + 36.64882).abs() < 1e-3);
     let shifted = 1.475023_f64.hypot(0.414488);
     assert!((last(&motions[1]["shifted"]) - shifted).abs() < 1e-3);
+    // The joints take the same path by MATPM, at another pace: the base ends turned alike.
+    let matpm = &scene["ghosts"][0];
+    assert_eq!(matpm["title"], "MATPM");
+    assert!((last(&matpm["turned"]) + 36.64882).abs() < 1e-3);
+    assert_eq!(matpm["frames"].as_array().unwrap().len(), 121);
     // Links keep their lengths while they move.
     let (from, to) = (&scene["links"][1][0], &scene["links"][1][1]);
     let length = |frame: &Value| {

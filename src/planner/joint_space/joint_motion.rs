@@ -5,7 +5,7 @@
 use crate::collocation::{Mesh, MeshError};
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
-use crate::dynamics::space::Space;
+use crate::dynamics::space::{Space, Vector};
 use crate::integrate::Rk4;
 use crate::nlp::Iterate;
 use crate::ocp::Interval;
@@ -287,26 +287,21 @@ fn sample<Sp: Space>(
 /// Times looked at between two breakpoints.
 const LOOKED_AT: usize = 40;
 
-/// Times and attitudes of the base along `motion`; all other columns stay empty.
-pub(super) fn attitudes<Sp: Space>(
-    system: &FreeFloating<Sp>,
-    motion: &impl JointMotion,
-) -> Trajectory {
+/// Times, joint positions and poses of the base along `motion`; all other columns stay empty.
+pub(super) fn poses<Sp: Space>(system: &FreeFloating<Sp>, motion: &impl JointMotion) -> Trajectory {
     let mut follower = Follower::new(system, motion);
     let mut found = Trajectory {
-        t: vec![0.0],
         attitude: system.attitude().in_space(),
-        base_attitude: vec![follower.eta.clone()],
         ..Trajectory::default()
     };
     let mut t = 0.0;
+    follower.pose(0, t, &mut found);
     for (piece, ends) in motion.breakpoints().windows(2).enumerate() {
         for k in 1..=LOOKED_AT {
             let next = ends[0] + (ends[1] - ends[0]) * k as f64 / LOOKED_AT as f64;
             follower.carry(piece, t, next);
             t = next;
-            found.t.push(t);
-            found.base_attitude.push(follower.eta.clone());
+            follower.pose(piece, t, &mut found);
         }
     }
     found
@@ -365,6 +360,19 @@ impl<'a, Sp: Space, M: JointMotion> Follower<'a, Sp, M> {
         self.system.base_rate(eta, &self.dq, data);
         let attitude = self.system.attitude();
         attitude.rates(eta, &data.base_rate, rates);
+    }
+
+    /// Adds the pose at `t`, where the base has been carried to.
+    fn pose(&mut self, piece: usize, t: f64, found: &mut Trajectory) {
+        self.motion
+            .at(piece, t, &mut self.q, &mut self.dq, &mut self.ddq);
+        self.system.tree().kinematics(&self.q, &mut self.data);
+        self.system.tree().momentum(&mut self.data);
+        let position = self.system.base_position(&self.eta, t, &self.data);
+        found.t.push(t);
+        found.base_attitude.push(self.eta.clone());
+        found.base_position.push(position.components().to_vec());
+        found.joint_position.push(self.q.clone());
     }
 
     /// States [η, θ, θ̇] at `t`, where the base has been carried to, and the controls

@@ -35,14 +35,14 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
     Ok(plan)
 }
 
-/// Times and attitudes of the base along that motion; `None` where the task is not from rest to rest in
+/// Times, joint positions and poses of the base along that motion; `None` where the task is not from rest to rest in
 /// joint space, or a joint cannot be there in time.
-pub fn attitudes(problem: &Problem) -> Option<Trajectory> {
+pub fn poses(problem: &Problem) -> Option<Trajectory> {
     rest_to_rest(Method::Matpm, problem).ok()?;
     let motion = BangCruiseBang::new(problem);
     let late = motion.joints.iter().any(|joint| joint.late);
     let found =
-        || with_system!(&System::new(problem), system => joint_motion::attitudes(system, &motion));
+        || with_system!(&System::new(problem), system => joint_motion::poses(system, &motion));
     (!late).then(found)
 }
 

@@ -6,4 +6,4 @@ pub(super) mod matpm;
 pub(super) mod quintic;
 pub(super) mod reaction_null_space;
 
-pub use matpm::attitudes as matpm_attitudes;
+pub use matpm::poses as matpm_motion;

@@ -98,11 +98,13 @@ impl Drawing<'_> {
         for bound in distinct(&limits.final_base_attitude) {
             let level = bound.to_degrees();
             let line = Series::line(label, &[(1.0 - END) * last, last], &[level; 2]);
+            let line = line.named("bound at the end");
             chart = chart.series(line.colour(Colour::Black).width(1.6));
             label = "";
         }
         if let Some(straight) = self.straight {
-            chart = dotted(chart, straight, &limited_angles(straight), subject.factor);
+            let values = limited_angles(straight);
+            chart = dotted(chart, straight, names, &values, subject.factor);
         }
         panel(&subject, chart)
     }
@@ -118,7 +120,7 @@ impl Drawing<'_> {
         let limits = &self.problem.limits.base_position;
         let mut chart = self.chart(&subject, names, &moved(self.rows), limits);
         if let Some(straight) = self.straight {
-            chart = dotted(chart, straight, &moved(straight), subject.factor);
+            chart = dotted(chart, straight, names, &moved(straight), subject.factor);
         }
         panel(&subject, chart)
     }
@@ -158,7 +160,7 @@ impl Drawing<'_> {
             JointKind::Revolute => [
                 ("Joint angles", "Angle (deg)", degrees, "°"),
                 ("Joint rates", "Rate (deg/s)", degrees, "°/s"),
-                ("Controls u", "Acceleration (rad/s²)", 1.0, " rad/s²"),
+                ("Controls u", "Acceleration (deg/s²)", degrees, "°/s²"),
                 ("Joint torques", "Torque (N·m)", 1.0, " N·m"),
             ],
             JointKind::Prismatic => [
@@ -207,6 +209,9 @@ impl Drawing<'_> {
             let column: Vec<f64> = values.iter().map(|row| subject.factor * row[i]).collect();
             chart = chart.series(Series::line(name, &self.rows.t, &column));
         }
+        if limits.iter().any(|limit| *limit != limits[0]) {
+            return matched(chart, subject, names, limits);
+        }
         let bounds: Vec<f64> = distinct(limits)
             .iter()
             .map(|bound| subject.factor * bound)
@@ -217,8 +222,7 @@ impl Drawing<'_> {
                 chart.bounds(&format!("limit ±{}{}", short(high), subject.unit), &bounds)
             }
             [_, _] if names.len() == 1 => chart.bounds("limits", &bounds),
-            [_] | [_, _] => chart.bounds("limit", &bounds),
-            _ => chart.bounds("limits of any of them", &bounds),
+            _ => chart.bounds("limit", &bounds),
         }
     }
 
@@ -236,9 +240,10 @@ fn panel(subject: &Subject<'_>, chart: Chart) -> Panel {
 }
 
 /// Five significant digits at most.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.4e}");
-    text.parse::<f64>().map_or(text, |value| value.to_string())
+    text.parse::<f64>()
+        .map_or(text, |value| (value + 0.0).to_string())
 }
 
 /// Finite bounds, each once, in order.
@@ -250,12 +255,58 @@ fn distinct(limits: &[Interval]) -> Vec<f64> {
     bounds
 }
 
+/// The chart with limits that differ from series to series: in the colours of the series, or where
+/// several have the same, with their names.
+fn matched(mut chart: Chart, subject: &Subject<'_>, names: &[&str], limits: &[Interval]) -> Chart {
+    let mut groups: Vec<(Interval, Vec<usize>)> = Vec::new();
+    for (i, limit) in limits
+        .iter()
+        .enumerate()
+        .filter(|(_, limit)| !limit.is_free())
+    {
+        match groups.iter_mut().find(|(held, _)| held == limit) {
+            Some((_, holders)) => holders.push(i),
+            None => groups.push((*limit, vec![i])),
+        }
+    }
+    let drawn = |(limit, holders): &(Interval, Vec<usize>)| -> Vec<(f64, Colour)> {
+        let colour = match holders[..] {
+            [i] => Colour::of_series(i),
+            _ => Colour::Grey,
+        };
+        let finite = [limit.lower, limit.upper]
+            .into_iter()
+            .filter(|bound| bound.is_finite());
+        finite
+            .map(|bound| (subject.factor * bound, colour))
+            .collect()
+    };
+    if groups.len() > 1 && groups.iter().all(|(_, holders)| holders.len() == 1) {
+        let bounds: Vec<_> = groups.iter().flat_map(drawn).collect();
+        return chart.coloured_bounds("limits, each in its colour", &bounds);
+    }
+    for group in &groups {
+        let held: Vec<&str> = group.1.iter().map(|i| names[*i]).collect();
+        let label = format!("limit of {}", held.join(", "));
+        chart = chart.coloured_bounds(&label, &drawn(group));
+    }
+    chart
+}
+
 /// The chart with the motion along the straight joint path.
-fn dotted(mut chart: Chart, motion: &Trajectory, values: &[Vec<f64>], factor: f64) -> Chart {
+fn dotted(
+    mut chart: Chart,
+    motion: &Trajectory,
+    names: &[&str],
+    values: &[Vec<f64>],
+    factor: f64,
+) -> Chart {
     for i in 0..values.first().map_or(0, Vec::len) {
         let column: Vec<f64> = values.iter().map(|row| factor * row[i]).collect();
         let label = if i == 0 { "straight joint path" } else { "" };
+        let name = names.get(i).copied().unwrap_or_default();
         let line = Series::line(label, &motion.t, &column);
+        let line = line.named(&format!("straight joint path, {name}"));
         let colour = match values[0].len() {
             1 => Colour::Grey,
             _ => Colour::of_series(i),
@@ -285,7 +336,7 @@ fn points(plan: &Discretization) -> Panel {
     let most = levels.iter().copied().fold(1.0, f64::max);
     let axis = Axis::linear("Points in the segment").range(0.0, 1.15 * most);
     let chart = Chart::new(Axis::linear("Time (s)"), axis)
-        .series(Series::steps("", &edges, &levels))
+        .series(Series::steps("", &edges, &levels).named("points"))
         .divisions(&edges[1..edges.len() - 1]);
     let heading = "Final mesh";
     Panel {

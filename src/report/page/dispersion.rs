@@ -2,6 +2,7 @@
 //! perturbations, their histograms and what they come from.
 
 use super::head::head;
+use super::scrolling::scrolling;
 use crate::digits::digits;
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Shape, Stroke, Width};
 use crate::printable::printable;
@@ -87,19 +88,20 @@ impl DispersionReport<'_> {
         let head = [
             "", "plan", "mean", "sd", "50 %", "90 %", "95 %", "99 %", "worst", "sample",
         ];
-        html! {
+        let table = html! {
             table.dispersion {
                 thead { tr { @for text in head { th scope="col" { (text) } } } }
                 @for figure in &self.figures {
                     tr { @for text in figure_row(figure) { td { (text) } } }
                 }
             }
-        }
+        };
+        scrolling("Quantiles", &table)
     }
 
     fn perturbations(&self) -> Markup {
         let model = &self.problem.robot;
-        html! {
+        let table = html! {
             table.dispersion {
                 thead { tr { @for text in ["quantity", "in the plan", "distribution"] { th scope="col" { (text) } } } }
                 @for perturbation in self.dispersion.perturbations() {
@@ -111,7 +113,8 @@ impl DispersionReport<'_> {
                     }
                 }
             }
-        }
+        };
+        scrolling("What is perturbed", &table)
     }
 }
 

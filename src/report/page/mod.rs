@@ -1,10 +1,15 @@
 //! `report.html`: one page that needs nothing else, with the motion played back beside that along
 //! the straight joint path, every quantity with its bounds, and why the numbers can be trusted.
 
+mod chart_data;
 mod charts;
 mod dispersion;
 mod head;
+mod marks;
+mod pose;
 mod scene;
+mod scrolling;
+mod task_table;
 mod texts;
 
 use super::format::{cost, degrees, time};
@@ -16,13 +21,23 @@ use crate::solution::{Search, Solution};
 use crate::study::Baselines;
 use crate::system::resampled;
 use crate::transcription::Discretization;
+use chart_data::ChartData;
 use charts::Panel;
 use head::head;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use scene::Scene;
+use scrolling::scrolling;
 use texts::Fact;
 
-const PLAYBACK: &str = include_str!("playback.js");
+/// One script; a file uses what those before it define.
+const SCRIPT: &str = concat!(
+    include_str!("clock.js"),
+    include_str!("camera.js"),
+    include_str!("picture.js"),
+    include_str!("playback.js"),
+    include_str!("charts.js"),
+    include_str!("main.js"),
+);
 
 /// Optima shown of a search; the file has all of them.
 const OPTIMA: usize = 12;
@@ -49,7 +64,17 @@ pub fn page(
     };
     let planned = even.iter().map(|motion| (title.as_str(), motion));
     let compared = straight.map(|motion| ("straight joint path", motion));
-    let scene = Scene::new(problem, &planned.chain(compared).collect::<Vec<_>>());
+    let matpm = baselines.matpm_motion.as_ref();
+    let matpm = matpm.filter(|_| solution.method != Method::Matpm.name());
+    let scene = Scene::new(
+        problem,
+        plan,
+        &planned.chain(compared).collect::<Vec<_>>(),
+        &matpm
+            .map(|motion| ("MATPM", motion))
+            .into_iter()
+            .collect::<Vec<_>>(),
+    );
     let panels = charts::panels(solution, problem, plan, straight);
     let page = html! {
         (DOCTYPE)
@@ -72,6 +97,7 @@ pub fn page(
                 }
                 (playback(&scene))
                 section { h2 { "In figures" } (facts(&texts::figures(solution, problem, baselines))) }
+                section { h2 { "The problem" } (task(problem)) }
                 section {
                     h2 {
                         @if status == Status::Solved && solution.verification.is_some() { "Why the numbers can be trusted" }
@@ -79,7 +105,7 @@ pub fn page(
                     }
                     (facts(&texts::evidence(solution, problem)))
                 }
-                section { h2 { "Over time" } div.charts { @for panel in &panels { (chart(panel)) } } }
+                (charts_over_time(&panels))
                 @if !solution.iterations.is_empty() {
                     section { h2 { "Mesh by mesh" } (history(solution)) }
                 }
@@ -87,7 +113,7 @@ pub fn page(
                     section { h2 { "Other optima" } (optima(search)) }
                 }
                 section { h2 { "Where it comes from" } (provenance(solution)) }
-                script { (PreEscaped(PLAYBACK)) }
+                script { (PreEscaped(SCRIPT)) }
             }
         }
     }
@@ -111,12 +137,24 @@ fn playback(scene: &Scene) -> Markup {
                 output {}
                 select aria-label="Speed" {}
             }
+            div.controls.views role="group" aria-label="View" {}
+            div.controls.ghosts role="group" aria-label="Motions to draw into the first picture" {}
             p.hint {
                 "To scale. Dashed: the base at the start. The base is drawn as the block of even "
                 "density with its mass and inertia. "
-                @if scene.keeps_apart() { "Dotted: what is kept apart. " }
-                "Drag to turn the view, the space bar plays."
+                "Green: the goal" @if scene.has_way_points() { ", and way-points" } ". "
+                @if scene.keeps_apart() {
+                    "Dotted: what is kept apart; other collisions are not checked. "
+                } @else {
+                    "Collisions are not checked: nothing is kept apart. "
+                }
             }
+            p.hint #keys {
+                "Drag, or the arrow keys, turn the view; shift and drag, or the right button, move it; "
+                "two fingers, + and −, or the wheel once the picture has been clicked, zoom; "
+                "the space bar plays."
+            }
+            div.frames aria-hidden="true" {}
             script #scene type="application/json" { (PreEscaped(json)) }
         }
         noscript { p.hint { "The motion is played where scripts are allowed." } }
@@ -140,27 +178,60 @@ fn facts(facts: &[Fact]) -> Markup {
 }
 
 fn chart(panel: &Panel) -> Markup {
-    let frame = panel
-        .figure
-        .frames()
-        .first()
-        .filter(|_| panel.over_time)
-        .map(|frame| {
-            let [low, high] = frame.x;
-            let of = [frame.left, frame.top, frame.width, frame.height, low, high];
-            of.map(|value| format!("{value:.5}")).join(" ")
-        });
+    let frame = panel.figure.frames().first().map(|frame| {
+        let [low, high] = frame.x;
+        let of = [frame.left, frame.top, frame.width, frame.height, low, high];
+        of.map(|value| format!("{value:.5}")).join(" ")
+    });
+    let svg = panel.figure.svg_with_groups();
     html! {
         figure {
             figcaption { (panel.heading) }
-            div.chart data-frame=[frame] { (PreEscaped(panel.figure.svg())) }
+            div.chart data-frame=[frame] data-over-time[panel.over_time] { (PreEscaped(svg)) }
         }
+    }
+}
+
+/// The charts, and the numbers behind them for the script.
+fn charts_over_time(panels: &[Panel]) -> Markup {
+    html! {
+        section #charts {
+            h2 { "Over time" }
+            div.charts { @for panel in panels { (chart(panel)) } }
+            @if let Ok(json) = ChartData::of(panels).json() {
+                script #numbers type="application/json" { (PreEscaped(json)) }
+            }
+        }
+    }
+}
+
+/// What is to be done.
+fn task(problem: &Problem) -> Markup {
+    let joints = html! {
+        table.joints {
+            thead {
+                tr {
+                    th scope="col" { "joint" }
+                    @for head in task_table::JOINT_COLUMNS { th scope="col" { (head) } }
+                }
+            }
+            @for row in task_table::joints(problem) {
+                tr {
+                    th scope="row" { (row.name) }
+                    @for cell in row.cells { td { (cell) } }
+                }
+            }
+        }
+    };
+    html! {
+        (scrolling("What is asked of every joint", &joints))
+        (facts(&task_table::rest(problem)))
     }
 }
 
 /// One row a mesh iteration.
 fn history(solution: &Solution) -> Markup {
-    html! {
+    let table = html! {
         table.history {
             thead {
                 tr {
@@ -189,16 +260,13 @@ fn history(solution: &Solution) -> Markup {
                 }
             }
         }
-    }
+    };
+    scrolling("Every mesh", &table)
 }
 
 /// One row for each of the optima that a search found.
 fn optima(search: &Search) -> Markup {
-    html! {
-        p {
-            (search.solved) " of " (search.tried) " starts were solved (seed " (search.seed)
-            "); there may be optima that none of them led to."
-        }
+    let table = html! {
         table.history {
             thead {
                 tr {
@@ -219,6 +287,13 @@ fn optima(search: &Search) -> Markup {
                 }
             }
         }
+    };
+    html! {
+        p {
+            (search.solved) " of " (search.tried) " starts were solved (seed " (search.seed)
+            "); there may be optima that none of them led to."
+        }
+        (scrolling("Every optimum", &table))
         @if search.optima.len() > OPTIMA {
             p { "And " (search.optima.len() - OPTIMA) " more on the first mesh." }
         }
@@ -248,7 +323,7 @@ fn provenance(solution: &Solution) -> Markup {
     html! {
         (facts(&lines))
         @for (what, text) in [("problem", &kept.problem.text), ("robot", &kept.robot.text)] {
-            details { summary { "The " (what) " file" } pre { (text) } }
+            details { summary { "The " (what) " file" } pre tabindex="0" { (text) } }
         }
     }
 }

@@ -1,11 +1,13 @@
 //! What the playback shows: points and lines of the robot at even times.
 
-use crate::dynamics::attitude::SpatialAttitude;
+use super::marks::{Mark, marks};
+use super::pose::{base_pose, from_picture};
 use crate::dynamics::{Body, Model};
 use crate::problem::{KeepOut, Problem, Solid};
 use crate::system::{Trajectory, base_angles};
-use crate::verify::bodies::{BaseMotion, Bodies, orientation};
-use nalgebra::{Matrix3, SymmetricEigen, UnitQuaternion, Vector3};
+use crate::transcription::Discretization;
+use crate::verify::bodies::{BaseMotion, Bodies};
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use serde::Serialize;
 
 /// Part of the picture's size to which points are rounded.
@@ -31,7 +33,12 @@ pub(super) struct Scene {
     swept_spheres: Vec<([usize; 2], f64)>,
     /// Edges of boxes that are kept apart.
     boxes: Vec<[usize; 2]>,
+    /// Motions that have a picture of their own.
     motions: Vec<Playback>,
+    /// Others, to be drawn into the first picture.
+    ghosts: Vec<Playback>,
+    /// Goals and way-points.
+    marks: Vec<Mark>,
 }
 
 /// One motion.
@@ -47,8 +54,14 @@ struct Playback {
 }
 
 impl Scene {
-    /// A scene with these motions of `problem`'s robot, at even times, under their titles.
-    pub fn new(problem: &Problem, motions: &[(&str, &Trajectory)]) -> Self {
+    /// A scene with these motions of `problem`'s robot, at even times, under their titles; `ghosts`
+    /// are others at any times, and `plan` has the goals.
+    pub fn new(
+        problem: &Problem,
+        plan: &Discretization,
+        motions: &[(&str, &Trajectory)],
+        ghosts: &[(&str, &Trajectory)],
+    ) -> Self {
         let robot = &problem.robot;
         let skeleton = Skeleton::new(robot, &problem.limits.keep_out);
         let duration = motions.iter().filter_map(|(_, rows)| rows.t.last()).next();
@@ -57,11 +70,16 @@ impl Scene {
             .iter()
             .map(|(title, rows)| skeleton.motion(title, rows))
             .collect();
+        let steps = motions.first().map_or(1, |motion| motion.frames.len() - 1);
+        let mut ghosts: Vec<Playback> = ghosts
+            .iter()
+            .map(|(title, rows)| skeleton.motion(title, rows).at_even_times(&rows.t, steps))
+            .collect();
         let all = || motions.iter().flat_map(|motion| &motion.frames).flatten();
         let step = ROUNDING * all().fold(0.0, |most: f64, value| most.max(value.abs()));
         let decimals = (-step.log10()).ceil().clamp(0.0, 12.0) as i32;
         let scale = 10f64.powi(decimals);
-        for motion in &mut motions {
+        for motion in motions.iter_mut().chain(&mut ghosts) {
             for value in motion.frames.iter_mut().flatten() {
                 // Adding zero takes the sign off a zero.
                 *value = (*value * scale).round() / scale + 0.0;
@@ -78,8 +96,15 @@ impl Scene {
             tips: skeleton.tips.clone(),
             swept_spheres: skeleton.swept_spheres.clone(),
             boxes: skeleton.boxes.clone(),
+            marks: marks(problem, plan),
             motions,
+            ghosts,
         }
+    }
+
+    /// Whether way-points are drawn beside the goal.
+    pub fn has_way_points(&self) -> bool {
+        self.marks.len() > 1
     }
 
     /// Whether anything is kept apart.
@@ -93,6 +118,33 @@ impl Scene {
     /// None that is expected: all numbers are finite.
     pub fn json(&self) -> serde_json::Result<String> {
         Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))
+    }
+}
+
+impl Playback {
+    /// The same at so many even steps, the points between two times on the line between theirs.
+    fn at_even_times(mut self, times: &[f64], steps: usize) -> Self {
+        let last = times.last().copied().unwrap_or(0.0);
+        let at = |k: usize| {
+            let t = last * k as f64 / steps as f64;
+            let next = times.partition_point(|time| *time < t);
+            let next = next.clamp(1, times.len() - 1);
+            let [a, b] = [times[next - 1], times[next]];
+            (next - 1, if b > a { (t - a) / (b - a) } else { 0.0 })
+        };
+        let mix = |a: f64, b: f64, part: f64| a + part * (b - a);
+        let rows = |values: &[f64]| -> Vec<f64> {
+            let value = |(k, part): (usize, f64)| mix(values[k], values[k + 1], part);
+            (0..=steps).map(|k| value(at(k))).collect()
+        };
+        self.turned = rows(&self.turned);
+        self.shifted = rows(&self.shifted);
+        let frame = |(k, part): (usize, f64)| {
+            let pair = self.frames[k].iter().zip(&self.frames[k + 1]);
+            pair.map(|(a, b)| mix(*a, *b, part)).collect()
+        };
+        self.frames = (0..=steps).map(|k| frame(at(k))).collect();
+        self
     }
 }
 
@@ -116,10 +168,9 @@ type Attached = (Option<usize>, Vector3<f64>);
 
 impl<'a> Skeleton<'a> {
     fn new(robot: &'a Model, apart: &[KeepOut]) -> Self {
-        let basis = robot.plane().map(|plane| plane.basis);
-        let to_picture = basis.map_or_else(Matrix3::identity, |basis| basis.transpose());
+        let to_picture = from_picture(robot).transpose();
         let mut corners = block(robot.base());
-        if basis.is_some() {
+        if robot.plane().is_some() {
             corners = outline(&corners, &to_picture);
         }
         let mut found = Self {
@@ -188,7 +239,7 @@ impl<'a> Skeleton<'a> {
     }
 
     fn motion(&self, title: &str, rows: &Trajectory) -> Playback {
-        let start = Pose::of(self, rows, 0);
+        let start = base_pose(self.robot, rows, 0);
         let mut bodies = Bodies::new(self.robot);
         let mut motion = Playback {
             title: title.into(),
@@ -197,16 +248,15 @@ impl<'a> Skeleton<'a> {
             shifted: Vec::with_capacity(rows.t.len()),
         };
         for (k, angle) in base_angles(rows).into_iter().enumerate() {
-            let pose = Pose::of(self, rows, k);
+            let base = base_pose(self.robot, rows, k);
             let q = &rows.joint_position[k];
-            let base = BaseMotion::placed(pose.position, pose.orientation);
             bodies.update(self.robot, &base, q, &vec![0.0; q.len()]);
             motion.frames.push(self.points(&base, &bodies));
             let turn = match self.robot.plane() {
                 Some(_) => rows.base_attitude[k][0],
                 None => angle,
             };
-            let shift = (pose.position - start.position).norm();
+            let shift = (base.position - start.position).norm();
             motion.turned.push(rounded(turn.to_degrees()));
             motion.shifted.push(rounded(100.0 * shift));
         }
@@ -231,26 +281,6 @@ impl<'a> Skeleton<'a> {
 /// Six digits, more than are shown.
 fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value) + 0.0
-}
-
-/// Where the base is, in inertial axes.
-struct Pose {
-    position: Vector3<f64>,
-    orientation: UnitQuaternion<f64>,
-}
-
-impl Pose {
-    fn of(skeleton: &Skeleton<'_>, rows: &Trajectory, k: usize) -> Self {
-        let attitude = rows.attitude.unwrap_or(SpatialAttitude::RollPitchYaw);
-        let position = match rows.base_position[k][..] {
-            [x, y] => skeleton.to_picture.transpose() * Vector3::new(x, y, 0.0),
-            ref position => Vector3::from_column_slice(position),
-        };
-        Self {
-            position,
-            orientation: orientation(skeleton.robot, attitude, &rows.base_attitude[k]),
-        }
-    }
 }
 
 /// The eight corners, in base axes, of the block of even density with the base's mass, mass centre

@@ -19,7 +19,7 @@ pub(super) struct Fact {
 }
 
 impl Fact {
-    fn new(what: &str, value: String, meaning: &str) -> Self {
+    pub fn new(what: &str, value: String, meaning: &str) -> Self {
         Self {
             what: what.into(),
             value,

@@ -16,8 +16,11 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// The unit of a quantity of a joint.
+type UnitOf = fn(JointKind) -> Unit;
+
 /// Quantities of a joint, with their units.
-const OF_JOINTS: [(&str, fn(JointKind) -> Unit); 5] = [
+const OF_JOINTS: [(&str, UnitOf); 5] = [
     ("joint_position", Unit::position),
     ("joint_velocity", Unit::rate),
     ("joint_acceleration", Unit::acceleration),

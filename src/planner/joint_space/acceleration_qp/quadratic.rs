@@ -27,17 +27,19 @@ impl Quadratic {
             return Some(self.bounds.iter().map(|bound| bound.lower).collect());
         }
         let mut programme = Programme::new(self);
-        let mut settings = Settings::default();
-        settings.timing = false;
-        settings.options = [
+        let options = [
             // Bounds that are hard.
             ("bound_relax_factor", OptionValue::Real(0.0)),
             // Derivatives are asked for once.
             ("hessian_constant", OptionValue::Text("yes".into())),
             ("jac_d_constant", OptionValue::Text("yes".into())),
         ]
-        .map(|(name, value)| (name.into(), value))
-        .into();
+        .map(|(name, value)| (name.into(), value));
+        let settings = Settings {
+            timing: false,
+            options: options.into(),
+            ..Settings::default()
+        };
         let mut start = vec![0.0; n + programme.rows.len()];
         for (x, bound) in start.iter_mut().zip(&self.bounds) {
             *x = bound.clamp(0.0);

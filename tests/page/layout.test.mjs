@@ -1,0 +1,85 @@
+// The page as it lies on a screen, on a telephone and on paper.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { axe, launch, names, open, widths } from "./browser.mjs";
+
+let browser;
+before(async () => { browser = await launch(); });
+after(() => browser.close());
+
+// What reaches beyond the window, unless it lies in something that scrolls by itself.
+const overhanging = () => {
+  const wide = document.documentElement.clientWidth;
+  const scrolls = (node) => node && node !== document.body &&
+    (["auto", "scroll", "hidden"].includes(getComputedStyle(node).overflowX) || scrolls(node.parentElement));
+  return [...document.body.querySelectorAll("*")]
+    .filter((node) => node.getBoundingClientRect().right > wide + 0.5 && !scrolls(node.parentElement))
+    .map((node) => node.outerHTML.slice(0, 80));
+};
+
+for (const name of names) {
+  for (const [size, viewport] of Object.entries(widths)) for (const colorScheme of ["light", "dark"]) {
+    test(`${name}, ${size}, ${colorScheme}: no error, no overhang, no serious fault of accessibility`, async () => {
+      const { page, faults, close } = await open(browser, name, { viewport, colorScheme });
+      assert.deepEqual(await page.evaluate(overhanging), []);
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
+      await page.evaluate(axe);
+      const { violations } = await page.evaluate(() => window.axe.run());
+      const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+      const told = serious.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html.slice(0, 120)).join(" | ")}`);
+      assert.deepEqual(told, []);
+      assert.deepEqual(faults, []);
+      await close();
+    });
+  }
+
+  test(`${name} prints to at most four pages`, async () => {
+    const { page, faults, close } = await open(browser, name);
+    const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
+    const count = pdf.match(/\/Type\s*\/Page\b/g).length;
+    assert.ok(count <= 4, `${count} pages`);
+    assert.deepEqual(faults, []);
+    await close();
+  });
+}
+
+test("the problem stands in a table, in degrees", async () => {
+  const { page, close } = await open(browser, "table1-relaxed");
+  const row = page.locator("table.joints tr").filter({ has: page.locator("th", { hasText: "elbow" }) });
+  assert.deepEqual(await row.locator("td").allTextContents(), ["0°", "60°", "±90°", "±51.566°/s", "±229.18°/s²", "–"]);
+  await close();
+});
+
+test("what is not checked is said", async () => {
+  for (const [name, words] of [["table1-relaxed", "Collisions are not checked"], ["capture", "other collisions are not checked"]]) {
+    const { page, close } = await open(browser, name);
+    assert.ok((await page.locator("#playback").textContent()).includes(words), name);
+    await close();
+  }
+});
+
+test("six pictures of the motion are printed", async () => {
+  const { page, close } = await open(browser, "chaser-7dof");
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+  const frames = page.locator(".frames canvas");
+  assert.equal(await frames.count(), 6);
+  const pictures = await frames.evaluateAll((all) => all.map((canvas) => canvas.toDataURL()));
+  assert.equal(new Set(pictures).size, 6);
+  assert.ok(await frames.first().isVisible());
+  assert.ok(!(await page.locator(".stages").isVisible()));
+  await close();
+});
+
+test("names from files are text wherever they stand", async () => {
+  const { page, faults, close } = await open(browser, "hostile-names");
+  await page.locator("#charts figure .chart").nth(3).hover();
+  assert.equal(await page.locator("#injected").count(), 0);
+  const name = "</script><i id=injected>";
+  assert.ok((await page.locator("table.joints th").allTextContents()).includes(name));
+  const legends = await page.locator(".legend button").allTextContents();
+  assert.ok(legends.includes(name) && legends.includes("=1+1\"'<img id=injected>"), legends.join());
+  assert.deepEqual(faults, []);
+  await close();
+});
