@@ -15,7 +15,7 @@ use std::time::Instant;
 
 #[allow(dead_code)]
 #[path = "free_flying_robot.rs"]
-mod free_flying_robot;
+pub mod free_flying_robot;
 
 /// ẍ = u from (x, ẋ) to a goal, with the cost ∫(a·x² + b·ẋ² + c·u²) dt + d·t_f.
 struct Integrator {

@@ -2,8 +2,6 @@
 
 #[path = "../examples/batch_in_code.rs"]
 mod batch_in_code;
-#[path = "../examples/free_flying_robot.rs"]
-mod free_flying_robot;
 #[path = "../examples/known_optima_bench.rs"]
 mod known_optima_bench;
 #[path = "../examples/own_problem.rs"]
@@ -22,6 +20,8 @@ mod shuttle_reentry;
 mod static_parameter;
 #[path = "../examples/time_in_process.rs"]
 mod time_in_process;
+
+use known_optima_bench::free_flying_robot;
 
 #[test]
 fn free_flying_robot_runs() {
