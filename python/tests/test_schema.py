@@ -5,7 +5,6 @@ import subprocess
 import sys
 import tomllib
 
-import jsonschema
 import pytest
 
 from conftest import CONFIG
@@ -16,6 +15,8 @@ SHIPPED = sorted({*CONFIG.glob("*.toml"), CONFIG / "starter" / "problem.toml"})
 
 @pytest.fixture(scope="module")
 def validator(command):
+    import jsonschema
+
     schema = json.loads(command("schema").stdout)
     kind = jsonschema.validators.validator_for(schema)
     kind.check_schema(schema)
