@@ -69,7 +69,7 @@ enter "$root" bash -euc '
   test -s /usr/share/bash-completion/completions/ffsm-ipopt
   ffsm-ipopt plan /usr/share/doc/ffsm-ipopt/examples/table1-smooth.toml --quiet --out smooth
   apt-get -qq purge -y ffsm-ipopt >/dev/null 2>&1
-  ! command -v ffsm-ipopt
+  test ! -e /usr/bin/ffsm-ipopt
 ' "$home"
 umount -R "$root/dev" "$root/proc"
 rm -rf --one-file-system "$root" "$root.log"
