@@ -121,11 +121,18 @@ def adaptive(table: Table, program: Path, repeat: int, quick: bool) -> None:
     problem = of_model(load(path))
     what = "table1-relaxed, refined to 1e-5"
 
-    def plan() -> dict:
-        return ours.plan(program, path).figures()
+    def plan(law: str = "paper") -> dict:
+        return ours.plan(program, path, mesh__law=law).figures()
 
-    sides = in_turn(repeat, ours=plan, mpopt=lambda: mpopt(problem, 10, 5))
+    sides = in_turn(
+        repeat,
+        ours=plan,
+        structure=lambda: plan("structure"),
+        mpopt=lambda: mpopt(problem, 10, 5),
+    )
     peer = "mpopt, segment widths free, all in"
+    by_structure = sides["structure"].by("process")
+    table.add(f"{what}, by structure, our process", peer, by_structure, sides["mpopt"], 100.0)
     table.add(f"{what}, our process", peer, sides["ours"].by("process"), sides["mpopt"], 100.0)
     table.add(f"{what}, within our process", peer, sides["ours"], sides["mpopt"], None)
     if quick:
