@@ -7,7 +7,7 @@ use super::search::SearchArguments;
 use super::{Outcome, interrupt, rows};
 use crate::config::{Overrides, ProblemFile};
 use crate::nlp::ipopt::interrupt as stop;
-use crate::planner::{Method, Status};
+use crate::planner::Method;
 use crate::refine;
 use crate::report::{ComparisonReport, FileSet, OutputFolder, comparison_figure};
 use crate::study::{Baselines, Comparison};
@@ -80,12 +80,7 @@ fn outcome(found: &Comparison) -> Outcome {
         .first()
         .and_then(|first| first.plan.as_ref().ok())
     {
-        Some(plan) => match plan.status {
-            Status::Solved => Outcome::Done,
-            Status::Infeasible => Outcome::Infeasible,
-            Status::NotConverged => Outcome::NotConverged,
-            Status::Interrupted => Outcome::Interrupted,
-        },
+        Some(plan) => plan.status.into(),
         None => Outcome::NotConverged,
     }
 }

@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     lines.add("rows", samples.t.len().to_string());
     lines.files(&files.write()?);
     terminal::print(&format!("{}\n\n{}", saved.solution.name, lines.finish()))?;
-    Ok(outcome(saved.solution.status))
+    Ok(saved.solution.status.into())
 }
 
 fn samples(arguments: &Arguments, saved: &Saved) -> Result<Samples, Failure> {
@@ -128,16 +128,6 @@ pub(super) fn read(path: &Path) -> Result<Saved, Failure> {
         ));
     }
     Ok(saved)
-}
-
-/// How a plan ended, as exit status.
-pub(super) fn outcome(status: Status) -> Outcome {
-    match status {
-        Status::Solved => Outcome::Done,
-        Status::Infeasible => Outcome::Infeasible,
-        Status::Interrupted => Outcome::Interrupted,
-        Status::NotConverged => Outcome::NotConverged,
-    }
 }
 
 /// What keeps the plan at `path` from being exported.

@@ -35,6 +35,7 @@ pub use check::understood;
 
 use crate::config;
 use crate::parallel;
+use crate::planner::Status;
 use crate::solution::Build;
 use clap::{Parser, Subcommand};
 use std::num::NonZero;
@@ -49,6 +50,17 @@ enum Outcome {
     Infeasible = 3,
     NotConverged = 4,
     Interrupted = 130,
+}
+
+impl From<Status> for Outcome {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Solved => Self::Done,
+            Status::Infeasible => Self::Infeasible,
+            Status::NotConverged => Self::NotConverged,
+            Status::Interrupted => Self::Interrupted,
+        }
+    }
 }
 
 /// Plans trajectories of free-floating space manipulators that disturb their base least.

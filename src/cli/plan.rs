@@ -194,12 +194,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         }
         (true, _) => {}
     }
-    Ok(match plan.status {
-        Status::Solved => Outcome::Done,
-        Status::Infeasible => Outcome::Infeasible,
-        Status::NotConverged => Outcome::NotConverged,
-        Status::Interrupted => Outcome::Interrupted,
-    })
+    Ok(plan.status.into())
 }
 
 /// The best plan of a search, with all that it found.

@@ -1,6 +1,6 @@
 //! `sample`: a saved plan at even times.
 
-use super::export::{outcome, read};
+use super::export::read;
 use super::failure::Failure;
 use super::{Outcome, terminal};
 use crate::report::{FileSet, Lines, OutputFolder};
@@ -65,5 +65,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     lines.add("rows", samples.t.len().to_string());
     lines.files(&files.write()?);
     terminal::print(&format!("{}\n\n{}", saved.solution.name, lines.finish()))?;
-    Ok(outcome(saved.solution.status))
+    Ok(saved.solution.status.into())
 }

@@ -220,6 +220,17 @@ impl Inertia {
         }
     }
 
+    /// The block of even density with this mass and inertia: half its edges (m) and, by columns, their
+    /// directions in body axes. It is centred at the mass centre.
+    pub fn even_block(&self) -> ([f64; 3], Matrix3<f64>) {
+        let principal = SymmetricEigen::new(self.rotational);
+        let [a, b, c] = [0, 1, 2].map(|i| principal.eigenvalues[i]);
+        // The moment about an axis is m/12 times the squares of the two other sides.
+        let half = [b + c - a, a + c - b, a + b - c]
+            .map(|sum| (1.5 * sum.max(0.0) / self.mass.max(f64::MIN_POSITIVE)).sqrt());
+        (half, principal.eigenvectors)
+    }
+
     /// A solid ball of water of that mass (kg) about the origin.
     pub fn ball(mass: f64) -> Self {
         const DENSITY: f64 = 1000.0;

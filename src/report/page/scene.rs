@@ -7,7 +7,7 @@ use crate::problem::{KeepOut, Problem, Solid};
 use crate::system::{Trajectory, base_angles};
 use crate::transcription::Discretization;
 use crate::verify::bodies::{BaseMotion, Bodies};
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 /// Part of the picture's size to which points are rounded.
@@ -286,13 +286,8 @@ fn rounded(value: f64) -> f64 {
 /// The eight corners, in base axes, of the block of even density with the base's mass, mass centre
 /// and inertia.
 fn block(base: &Body) -> Vec<Vector3<f64>> {
-    let inertia = &base.inertia;
-    let principal = SymmetricEigen::new(*inertia.rotational());
-    let [a, b, c] = [0, 1, 2].map(|i| principal.eigenvalues[i]);
-    // The moment about an axis is m/12 times the squares of the two other sides.
-    let half = [b + c - a, a + c - b, a + b - c]
-        .map(|sum| (1.5 * sum.max(0.0) / inertia.mass().max(f64::MIN_POSITIVE)).sqrt());
-    cuboid(*inertia.center(), &principal.eigenvectors, half)
+    let (half, axes) = base.inertia.even_block();
+    cuboid(*base.inertia.center(), &axes, half)
 }
 
 /// The eight corners of a block with these half edges along these axes.

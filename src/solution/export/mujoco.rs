@@ -49,6 +49,7 @@ pub fn mjcf(robot: &Model, samples: &Samples) -> String {
     );
     text.line(3, "<freejoint/>");
     text.body(3, robot.base());
+    text.block(3, &robot.base().inertia);
     text.children(3, robot, None);
     text.line(2, "</body>");
     text.line(1, "</worldbody>");
@@ -143,11 +144,11 @@ impl Text {
         }
     }
 
-    /// Mass properties, and for the base a block to be seen.
+    /// Mass properties.
     fn body(&mut self, depth: usize, body: &Body) {
         let (inertia, least) = (&body.inertia, &self.least);
         let mass = inertia.mass().max(least.mass);
-        let moments = inertia.rotational() + Matrix3::identity() * least.moment;
+        let moments = within_triangle(inertia) + Matrix3::identity() * least.moment;
         let full = [
             moments[(0, 0)],
             moments[(1, 1)],
@@ -165,18 +166,13 @@ impl Text {
                 list(&full)
             ),
         );
-        if depth == 3 {
-            self.block(depth, inertia);
-        }
     }
 
     /// The block of even density with these mass properties, to be seen alone.
     fn block(&mut self, depth: usize, inertia: &Inertia) {
-        let principal = nalgebra::SymmetricEigen::new(*inertia.rotational());
-        let [a, b, c] = [0, 1, 2].map(|i| principal.eigenvalues[i]);
-        let half = [b + c - a, a + c - b, a + b - c]
-            .map(|sum| (1.5 * sum.max(0.0) / inertia.mass()).sqrt().max(1e-3));
-        let mut axes = principal.eigenvectors;
+        let (half, mut axes) = inertia.even_block();
+        // MuJoCo takes no shape without size.
+        let half = half.map(|side| side.max(1e-3));
         if axes.determinant() < 0.0 {
             axes.column_mut(2).neg_mut();
         }
@@ -245,6 +241,16 @@ impl Text {
     }
 }
 
+/// The rotational inertia, or where a moment exceeds the sum of the others the nearest of which none does:
+/// published figures are rounded, and MuJoCo takes none of these.
+fn within_triangle(inertia: &Inertia) -> Matrix3<f64> {
+    let moments = inertia.rotational().symmetric_eigenvalues();
+    if 2.0 * moments.max() <= moments.sum() {
+        return *inertia.rotational();
+    }
+    *Inertia::nearest(inertia.mass(), inertia.rotational()).rotational()
+}
+
 /// A shape that is seen and does nothing else.
 const SEEN: &str = "contype=\"0\" conaffinity=\"0\" mass=\"0\"";
 
@@ -262,4 +268,23 @@ fn list(values: &[f64]) -> String {
 /// All digits.
 fn number(value: f64) -> String {
     format!("{value:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounded_moments_become_those_of_a_body() {
+        let moments = |c: f64| Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, c));
+        let inertia = |c| Inertia::new(1.0, Vector3::zeros(), moments(c)).unwrap();
+        assert_eq!(within_triangle(&inertia(1.9)), moments(1.9));
+        // A thousandth too much is taken for rounding.
+        let found = within_triangle(&inertia(2.001));
+        assert!(
+            found[(2, 2)] <= (found[(0, 0)] + found[(1, 1)]) * (1.0 + 1e-12),
+            "{found}"
+        );
+        assert!((found - moments(2.001)).amax() < 1e-3, "{found}");
+    }
 }
