@@ -56,6 +56,17 @@ fn the_result_is_the_same_on_one_thread_and_on_two() {
     assert_eq!(on(1), on(2));
 }
 
+/// Motions of this arm are known that keep the base within 29.2°, and that end 18.2° off.
+#[test]
+fn arms_of_two_joints_have_bounds_beside_what_is_found() {
+    let found = search(&problems::relaxed(), 1, 1);
+    let bounds = found.optima.bounds.unwrap();
+    let degrees = |angle: f64| angle.to_degrees();
+    let within = |value: f64, low: f64, high: f64| (low..high).contains(&degrees(value));
+    assert!(within(bounds.max_base_attitude, 24.0, 29.2), "{bounds:?}");
+    assert!(within(bounds.final_base_attitude, 10.0, 18.2), "{bounds:?}");
+}
+
 /// The peak is a static parameter, which no start brings along.
 #[test]
 fn peaks_are_searched_for_as_well() {

@@ -1,13 +1,17 @@
 //! `reproduce`: everything that docs/reproduction.md is written from.
 
 use super::failure::Failure;
+use super::search::SearchArguments;
 use super::steps::Steps;
 use super::{Outcome, terminal};
+use crate::planner::Method;
+use crate::refine;
 use crate::report::{FileSet, OutputFolder};
 use crate::reproduction::document::{self, Findings};
 use crate::reproduction::figures::Drawn;
 use crate::reproduction::platform::Platform;
 use crate::reproduction::{Session, Step, bounds};
+use crate::study::search::Search;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -16,6 +20,8 @@ use std::path::PathBuf;
 pub(super) struct Arguments {
     /// Only this part, printed and not written
     part: Option<Part>,
+    #[command(flatten)]
+    search: SearchArguments,
     /// Folder to write reproduction.md, its data and its figures to
     #[arg(long, value_name = "DIR", default_value = "out/reproduction")]
     out: PathBuf,
@@ -35,9 +41,15 @@ enum Part {
 
 /// Runs, writes, prints.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    let adaptive = Method::Collocation(refine::Method::Adaptive);
+    let search = arguments.search.of(adaptive)?.map(|(search, _)| search);
     match arguments.part {
+        Some(_) if search.is_some() => Err(Failure::Usage(
+            "--search is for all of the reproduction: its comparisons and fronts search, no part does"
+                .into(),
+        )),
         Some(part) => alone(part),
-        None => all(arguments),
+        None => all(arguments, search),
     }
 }
 
@@ -54,12 +66,13 @@ fn alone(part: Part) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-fn all(arguments: &Arguments) -> Result<Outcome, Failure> {
+fn all(arguments: &Arguments, search: Option<Search>) -> Result<Outcome, Failure> {
     let folder = OutputFolder::create(&arguments.out)?;
     let pictures = OutputFolder::create(&arguments.out.join("figures"))?;
     let mut steps = Steps::listen();
     let mut monitor = |step: Step<'_>| steps.show(step);
-    let findings = Findings::gather(&mut Session::new(&mut monitor), arguments.repeat)?;
+    let mut session = Session::new(&mut monitor).searching(search);
+    let findings = Findings::gather(&mut session, arguments.repeat)?;
     steps.finish();
     let mut set = FileSet::new();
     set.add(&folder, "reproduction.md", &document::markdown(&findings));

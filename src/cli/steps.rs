@@ -29,7 +29,7 @@ impl Steps {
             }
             Step::Event(event) => {
                 if let Some(line) = &mut self.line {
-                    line.show(event);
+                    line.show_search(event);
                 }
             }
         }

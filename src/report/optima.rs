@@ -1,6 +1,7 @@
 //! The distinct optima of a search, for the terminal.
 
 use super::format::{cost, degrees, seconds};
+use crate::planner::floor::LowerBounds;
 use crate::study::search::{Optima, Optimum};
 use comfy_table::{CellAlignment, Table, presets};
 
@@ -43,10 +44,23 @@ pub fn optima(optima: &Optima) -> String {
         more => format!("  and {more} more on the first mesh\n"),
     };
     let heading = headline(optima);
+    let least = optima.bounds.as_ref().map(lower_bounds);
+    let least = least
+        .map(|words| format!("\n  {words}\n"))
+        .unwrap_or_default();
     match found.is_empty() {
         true => format!("  {heading}\n"),
-        false => format!("  {heading}\n\n{rows}{more}"),
+        false => format!("  {heading}\n\n{rows}{more}{least}"),
     }
+}
+
+/// What no motion can do better than.
+fn lower_bounds(bounds: &LowerBounds) -> String {
+    format!(
+        "no motion keeps the base angle below {} all along, or below {} at the end (dynamic programming)",
+        degrees(bounds.max_base_attitude),
+        degrees(bounds.final_base_attitude),
+    )
 }
 
 /// How many starts ended at how many optima.
@@ -57,6 +71,7 @@ pub(super) fn headline(optima: &Optima) -> String {
         solved,
         seed,
         time,
+        ..
     } = optima;
     let several = |count: usize, what: &str, plural: &str| match count {
         1 => format!("1 {what}"),

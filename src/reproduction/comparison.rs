@@ -19,6 +19,8 @@ pub struct Compared {
     pub problem: Problem,
     /// What the planners made of it.
     pub found: Comparison,
+    /// What the command was given for a search.
+    search_flags: String,
 }
 
 /// Plans both tasks by every planner.
@@ -29,7 +31,11 @@ pub fn compared(session: &mut Session<'_>) -> Result<Vec<Compared>, Reproduction
     let plan = |name| {
         let problem = ProblemFile::shipped(name)?.problem;
         let found = session.compare(&problem)?;
-        Ok(Compared { problem, found })
+        Ok(Compared {
+            problem,
+            found,
+            search_flags: session.search_flags(),
+        })
     };
     PROBLEMS.into_iter().map(plan).collect()
 }
@@ -37,7 +43,15 @@ pub fn compared(session: &mut Session<'_>) -> Result<Vec<Compared>, Reproduction
 impl Compared {
     /// The command that does the same.
     pub fn command(&self) -> String {
-        format!("ffsm-ipopt compare config/{}.toml", self.problem.name)
+        let Self {
+            problem,
+            search_flags,
+            ..
+        } = self;
+        format!(
+            "ffsm-ipopt compare config/{}.toml{search_flags}",
+            problem.name
+        )
     }
 
     /// The tables.

@@ -10,7 +10,7 @@ use crate::simulate::SimulateError;
 use crate::solution::SolutionError;
 use crate::study::Comparison;
 use crate::study::pareto::ParetoFront;
-use crate::study::search::SearchEvent;
+use crate::study::search::{Search, SearchEvent};
 use rustix::time::{ClockId, clock_gettime};
 
 /// Why nothing came of it.
@@ -63,7 +63,7 @@ pub enum Step<'a> {
     /// Something new begins.
     Begin(&'a str),
     /// A step of planning.
-    Event(&'a Event<'a>),
+    Event(&'a SearchEvent<'a>),
 }
 
 /// One plan and the processor time it took.
@@ -78,6 +78,8 @@ pub struct Run {
 /// Plans one after another; the monitor is told and can stop it.
 pub struct Session<'m> {
     monitor: &'m mut (dyn FnMut(Step<'_>) -> Control + Send),
+    /// What comparisons and fronts search with.
+    search: Option<Search>,
 }
 
 impl std::fmt::Debug for Session<'_> {
@@ -89,7 +91,22 @@ impl std::fmt::Debug for Session<'_> {
 impl<'m> Session<'m> {
     /// A session that tells `monitor` of every step.
     pub fn new(monitor: &'m mut (dyn FnMut(Step<'_>) -> Control + Send)) -> Self {
-        Self { monitor }
+        Self {
+            monitor,
+            search: None,
+        }
+    }
+
+    /// The same with a search from many starts wherever planners are compared and along fronts. Tables
+    /// and figures of the paper are of one start each, as published.
+    pub fn searching(self, search: Option<Search>) -> Self {
+        Self { search, ..self }
+    }
+
+    /// What a command of this program is given for the same search.
+    pub fn search_flags(&self) -> String {
+        let flags = |search: &Search| format!(" --search {} --seed {}", search.starts, search.seed);
+        self.search.as_ref().map(flags).unwrap_or_default()
     }
 
     /// Says that something new begins.
@@ -105,15 +122,12 @@ impl<'m> Session<'m> {
 
     /// Passes a step of planning on to the monitor.
     pub(super) fn show(&mut self, event: &Event<'_>) -> Control {
-        (self.monitor)(Step::Event(event))
+        self.show_step(&SearchEvent::of_plan(*event))
     }
 
     /// The same of a step that a search may be part of.
     fn show_step(&mut self, event: &SearchEvent<'_>) -> Control {
-        match event {
-            SearchEvent::Refining { event, .. } => self.show(event),
-            SearchEvent::Tried { .. } => Control::Continue,
-        }
+        (self.monitor)(Step::Event(event))
     }
 
     /// Plans `problem` with a fresh planner, by the method of its mesh.
@@ -156,8 +170,9 @@ impl<'m> Session<'m> {
     pub fn compare(&mut self, problem: &Problem) -> Result<Comparison, ReproductionError> {
         let title = format!("{} by every planner", problem.name);
         self.begin(&title)?;
+        let search = self.search.clone();
         let mut told = |_, event: &SearchEvent<'_>| self.show_step(event);
-        let found = Comparison::plan(problem, None, &mut told)
+        let found = Comparison::plan(problem, search.as_ref(), &mut told)
             .map_err(|cause| ReproductionError::Plan { title, cause })?;
         let plans = found
             .entries
@@ -179,6 +194,9 @@ impl<'m> Session<'m> {
     ) -> Result<(), ReproductionError> {
         let title = format!("{name}, base motion against joint effort");
         self.begin(&title)?;
+        if let Some(search) = self.search.clone() {
+            front.search(search);
+        }
         front
             .sweep(factors, &mut |_, event| self.show_step(event))
             .map_err(|cause| ReproductionError::Plan { title, cause })?;
@@ -195,8 +213,8 @@ impl<'m> Session<'m> {
         self.begin(title)?;
         let monitor = &mut *self.monitor;
         let plan = Planner::new()
-            .plan_by(method, problem, start, &mut |event| {
-                monitor(Step::Event(event))
+            .plan_by(method, problem, start, &mut |&event| {
+                monitor(Step::Event(&SearchEvent::of_plan(event)))
             })
             .map_err(|cause| ReproductionError::Plan {
                 title: title.into(),

@@ -13,12 +13,11 @@ pub struct TradeOff {
     /// The points, in the order of their factors.
     pub points: Vec<ParetoPoint>,
     notes: Vec<String>,
+    /// What the command was given for a search.
+    search_flags: String,
 }
 
 impl TradeOff {
-    /// The command that does the same.
-    pub const COMMAND: &'static str = "ffsm-ipopt pareto config/table1-relaxed.toml";
-
     /// Plans along the curve.
     ///
     /// # Errors
@@ -30,7 +29,16 @@ impl TradeOff {
         Ok(Self {
             points: front.points().to_vec(),
             notes,
+            search_flags: session.search_flags(),
         })
+    }
+
+    /// The command that does the same.
+    pub fn command(&self) -> String {
+        format!(
+            "ffsm-ipopt pareto config/{RELAXED}.toml{}",
+            self.search_flags
+        )
     }
 
     /// Table and figure.

@@ -94,6 +94,21 @@ pub struct Search {
     pub solved: usize,
     /// The distinct optima, the best first.
     pub optima: Vec<Optimum>,
+    /// What no motion can do better than, for planar arms with two joints; null elsewhere.
+    #[serde(default)]
+    pub lower_bounds: Option<LowerBounds>,
+}
+
+/// Lower bounds by dynamic programming over two joints.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct LowerBounds {
+    /// Of the largest base angle along the path, rad.
+    #[serde(with = "number")]
+    pub max_base_attitude: f64,
+    /// Of the base angle at t_f, rad.
+    #[serde(with = "number")]
+    pub final_base_attitude: f64,
 }
 
 /// An optimum that starts ended at.

@@ -84,6 +84,10 @@ pub fn search(optima: &Optima) -> Search {
         tried: optima.tried,
         solved: optima.solved,
         optima: optima.found.iter().map(optimum).collect(),
+        lower_bounds: optima.bounds.map(|bounds| LowerBounds {
+            max_base_attitude: bounds.max_base_attitude,
+            final_base_attitude: bounds.final_base_attitude,
+        }),
     }
 }
 

@@ -37,6 +37,16 @@ fn help_names_every_command() {
 }
 
 #[test]
+fn a_part_of_the_reproduction_does_not_search() {
+    let run = Folder::new(PROBLEM).run(&["reproduce", "bounds", "--search", "4"]);
+    assert_eq!(run.code, 2);
+    assert!(
+        run.stderr
+            .contains("--search is for all of the reproduction")
+    );
+}
+
+#[test]
 fn the_manual_has_a_page_a_command() {
     let folder = Folder::new(PROBLEM);
     let run = folder.run(&["man", "pages"]);

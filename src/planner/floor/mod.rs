@@ -5,9 +5,11 @@
 
 mod connection;
 mod grid;
+mod lower_bounds;
 
 pub use connection::{Connection, CurvatureBound};
 pub use grid::{Certainty, Grid};
+pub use lower_bounds::LowerBounds;
 
 use super::LimitFinding;
 use crate::dynamics::attitude::Attitude;

@@ -297,6 +297,13 @@ fn optima(search: &Search) -> Markup {
         @if search.optima.len() > OPTIMA {
             p { "And " (search.optima.len() - OPTIMA) " more on the first mesh." }
         }
+        @if let Some(bounds) = &search.lower_bounds {
+            p {
+                "No motion keeps the base angle below " (degrees(bounds.max_base_attitude))
+                " all along, or below " (degrees(bounds.final_base_attitude))
+                " at the end: by dynamic programming over the two joints."
+            }
+        }
     }
 }
 

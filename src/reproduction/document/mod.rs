@@ -119,7 +119,7 @@ pub fn markdown(findings: &Findings) -> String {
     let front = &findings.trade_off;
     add(
         "Base motion against joint effort",
-        &[TradeOff::COMMAND],
+        &[&front.command()],
         &format!(
             "{}\n{}\n\n{}",
             front.report().markdown(),

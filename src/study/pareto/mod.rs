@@ -82,11 +82,14 @@ impl<'a> ParetoFront<'a> {
     }
 
     /// The same with a search from many starts at every point, the plan before among them.
-    pub fn searching(self, search: Search) -> Self {
-        Self {
-            search: Some(search),
-            ..self
-        }
+    pub fn searching(mut self, search: Search) -> Self {
+        self.search(search);
+        self
+    }
+
+    /// Searches from many starts at every point that is planned from now on.
+    pub fn search(&mut self, search: Search) {
+        self.search = Some(search);
     }
 
     /// The same within `limit` from now on, shared out among the points: each has an even part of what

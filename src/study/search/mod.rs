@@ -28,6 +28,7 @@ pub use optimum::Optimum;
 
 use crate::nlp::{Control, Deadline};
 use crate::parallel;
+use crate::planner::floor::LowerBounds;
 use crate::planner::{Event, Plan, PlanError, Planner, Start, Status};
 use crate::problem::Problem;
 use crate::system::{StartKind, System, with_system};
@@ -83,6 +84,8 @@ pub struct Optima {
     pub seed: u64,
     /// How long the whole search took.
     pub time: Duration,
+    /// What no motion can do better than; for planar arms with two joints.
+    pub bounds: Option<LowerBounds>,
 }
 
 /// What a search came to.
@@ -203,6 +206,10 @@ impl Search {
                 best.filter(better).unwrap_or(plan)
             }
         };
+        if plan.status == Status::Solved {
+            let found = plan.metrics.max_base_attitude;
+            optima.bounds = LowerBounds::new(problem, found, deadline);
+        }
         optima.time = began.elapsed();
         Ok(Searched { plan, optima })
     }

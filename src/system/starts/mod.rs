@@ -17,7 +17,8 @@ mod curvature;
 mod perturb;
 
 use super::free_floating::FreeFloating;
-use super::guess::{JointPath, Loop};
+use super::guess::{JointPath, Loop, along};
+use crate::collocation::Mesh;
 use crate::dynamics::JointKind;
 use crate::dynamics::space::Space;
 use crate::ocp::Interval;
@@ -67,13 +68,9 @@ impl fmt::Display for StartKind {
 
 /// Joints that count as many: their arm has more ways round than loops of two joints.
 const MANY: usize = 4;
-/// Kinds of starts in turn, after the straight path.
-const TURNS: [StartKind; 4] = [
-    StartKind::Detour,
-    StartKind::Loop,
-    StartKind::Detour,
-    StartKind::Detour,
-];
+/// Kinds of starts in turn, after the straight path: loops of two of many joints end where the straight
+/// path does.
+const TURNS: [StartKind; 1] = [StartKind::Detour];
 /// The same of few joints.
 const TURNS_OF_FEW: [StartKind; 3] = [StartKind::Loop, StartKind::Loop, StartKind::Detour];
 /// The same where joints at the goal are for the planner to find.
@@ -98,6 +95,9 @@ const DETOURS_OF_FEW: Interval = Interval {
     lower: 0.6,
     upper: 2.4,
 };
+/// One of how many optima is perturbed by a loop: of few joints, and of many, where loops seldom lead away.
+const LOOPS_OF_FEW: u8 = 2;
+const LOOPS: u8 = 4;
 /// Standard deviation of a detour on top of an optimum, as a part of [`Starts::reach`].
 const BUMP: f64 = 3.0;
 /// Radius that a joint without limits may go, rad.
@@ -116,11 +116,18 @@ const NARROWINGS: usize = 4;
 
 /// Draws of a path in search of one that keeps apart what has to be.
 const DRAWS: usize = 32;
+/// Draws of a detour of many joints, of which that is taken whose base moves least, by the weights of
+/// the cost: the cheapest of so many leads to better optima than any.
+const CANDIDATES: usize = 40;
+/// The mesh on which their cost is taken.
+const SEGMENTS: usize = 20;
+const POINTS: usize = 6;
 
 /// Joint paths to begin with, by number.
 #[derive(Debug)]
 pub(crate) struct Starts<'a, Sp: Space> {
     problem: &'a Problem,
+    system: &'a FreeFloating<Sp>,
     apart: Apart<'a, Sp>,
     planes: Vec<Plane>,
     /// How far each joint may go, rad or m.
@@ -143,6 +150,7 @@ impl<'a, Sp: Space> Starts<'a, Sp> {
         planes.sort_by(|a, b| b.turn.total_cmp(&a.turn));
         Self {
             problem,
+            system,
             apart: Apart::new(system),
             planes,
             reach,
@@ -166,12 +174,40 @@ impl<'a, Sp: Space> Starts<'a, Sp> {
         let path = match kind {
             StartKind::Loop if !self.planes.is_empty() => self.free(|| self.looped(&mut random)),
             StartKind::OtherGoal => return (kind, self.to_another_goal(&mut random)),
-            _ => {
+            _ if self.reach.len() < MANY || free => {
                 let path = self.free(|| self.detour(&mut random));
                 return (StartKind::Detour, path);
             }
+            _ => return (StartKind::Detour, self.best_detour(&mut random)),
         };
         (kind, path)
+    }
+
+    /// Of many detours that whose base moves least, or the first where nothing of that has a weight.
+    fn best_detour(&self, random: &mut fastrand::Rng) -> JointPath {
+        let mut best = self.free(|| self.detour(random));
+        let mut least = self.base_cost(&best);
+        for _ in 1..CANDIDATES {
+            if least.is_nan() || least <= 0.0 {
+                break;
+            }
+            let path = self.free(|| self.detour(random));
+            let cost = self.base_cost(&path);
+            if cost < least {
+                (best, least) = (path, cost);
+            }
+        }
+        best
+    }
+
+    /// What the cost counts of the base's motion along `path`.
+    fn base_cost(&self, path: &JointPath) -> f64 {
+        let Ok(mesh) = Mesh::uniform(SEGMENTS, POINTS) else {
+            return f64::NAN;
+        };
+        let duration = self.problem.task.duration.center();
+        let motion = along(self.system, duration, path, mesh);
+        self.system.cost_terms(&motion).base()
     }
 
     /// The first of many paths that keeps apart what has to be, or the one that overlaps least.
@@ -201,7 +237,11 @@ impl<'a, Sp: Space> Starts<'a, Sp> {
     pub fn perturbed(&self, optimum: &Discretization, index: usize) -> Discretization {
         let mut random = self.random(index);
         let legs = JointPath::new(self.problem, &[]);
-        let on_top = match random.bool() && !self.planes.is_empty() {
+        let loops = match self.reach.len() < MANY {
+            true => LOOPS_OF_FEW,
+            false => LOOPS,
+        };
+        let on_top = match random.u8(..loops) == 0 && !self.planes.is_empty() {
             true => OnTop::Loop(self.a_loop(&legs, &mut random)),
             false => {
                 let (from, to) = legs.leg_at(random.f64());
