@@ -106,6 +106,10 @@ impl Grid {
             let cells = ((ends[i][1] - ends[i][0]) / cell[i]).round();
             (below[i] as f64 + cells) as usize
         });
+        // Out of reach in the time there is.
+        if (0..2).any(|i| goal[i] >= size[i]) {
+            return None;
+        }
         let on_grid = angle(goal);
         let rest = [0, 1].map(|i| ends[i][1] - on_grid[i]);
         let angles: Vec<[f64; 2]> = (0..size[0])
