@@ -139,7 +139,8 @@ pub(super) fn limits(
     components: &EveryComponent,
 ) -> Result<(), ConfigError> {
     let known = limits.entries().map(|entry| entry.id);
-    let known: Vec<_> = known.chain([LimitId::KeepOut]).map(LimitId::name).collect();
+    let others = [LimitId::BaseMotion, LimitId::KeepOut];
+    let known: Vec<_> = known.chain(others).map(LimitId::name).collect();
     let section = item.section(&known)?;
     for entry in limits.entries_mut() {
         if let Some(item) = section.get(entry.id.name()) {
@@ -149,6 +150,10 @@ pub(super) fn limits(
                 entry.id.may_exclude_zero(),
             )?;
         }
+    }
+    if let Some(item) = section.get(LimitId::BaseMotion.name()) {
+        limits.base_motion =
+            item.positive("a number above zero, as the base's terms of the cost")?;
     }
     if let Some(item) = section.get(LimitId::KeepOut.name()) {
         limits.keep_out = keep_out::read(item, robot)?;

@@ -24,6 +24,8 @@ pub enum LimitId {
     FinalBaseAttitude,
     /// Displacement of the base along the path.
     BasePosition,
+    /// The terms of the cost about the base, together.
+    BaseMotion,
     /// Pairs of bodies that are kept apart.
     KeepOut,
     /// Joint positions at t_f, eq. (13).
@@ -62,6 +64,7 @@ impl LimitId {
             Self::BaseRate => "base rate",
             Self::FinalBaseAttitude => "final attitude",
             Self::BasePosition => "base displacement",
+            Self::BaseMotion => "base motion",
             Self::KeepOut => "kept apart",
             Self::FinalJoints => "final joint position",
             Self::EndEffector => "end effector",
@@ -81,6 +84,7 @@ impl LimitId {
             Self::BaseRate => "limits.base_rate",
             Self::FinalBaseAttitude => "limits.final_base_attitude",
             Self::BasePosition => "limits.base_position",
+            Self::BaseMotion => "limits.base_motion",
             Self::KeepOut => "limits.keep_out",
             Self::FinalJoints => "task.final.joints",
             Self::EndEffector => "task.final.end_effector",
@@ -113,7 +117,11 @@ impl LimitId {
     pub fn is_on_base(self) -> bool {
         matches!(
             self,
-            Self::BaseAttitude | Self::BaseRate | Self::FinalBaseAttitude | Self::BasePosition
+            Self::BaseAttitude
+                | Self::BaseRate
+                | Self::FinalBaseAttitude
+                | Self::BasePosition
+                | Self::BaseMotion
         )
     }
 }

@@ -30,6 +30,9 @@ pub struct Limits {
     /// Displacement of the base from where it was at t₀, along the whole path, inertial axes, m; one
     /// a length.
     pub base_position: Vec<Interval>,
+    /// The terms of the cost (14) about the base, together, with their weights: ε of the ε-constraint
+    /// method; infinite where there is none.
+    pub base_motion: f64,
     /// Pairs kept apart along the path.
     pub keep_out: Vec<KeepOut>,
 }
@@ -104,6 +107,7 @@ impl Limits {
             base_rate: free(angles),
             final_base_attitude: free(angles),
             base_position: free(lengths),
+            base_motion: f64::INFINITY,
             keep_out: Vec::new(),
         }
     }

@@ -16,6 +16,8 @@ pub type ParetoReport<'a> = Rows<'a, ParetoRow>;
 pub struct ParetoRow {
     /// On the weights of the base.
     pub(super) factor: f64,
+    /// On the base's motion B, where no factor leads to the point; none elsewhere.
+    pub(super) bound: Option<f64>,
     pub(super) status: Status,
     /// Weighted terms of the cost about the base, without the factor.
     pub(super) base_motion: f64,
@@ -45,6 +47,7 @@ impl ParetoRow {
         let metrics = &plan.metrics;
         Self {
             factor: point.factor,
+            bound: point.bound,
             status: plan.status,
             base_motion: point.base,
             joint_effort: point.joints,
@@ -85,7 +88,8 @@ impl<'a> ParetoReport<'a> {
         let mut text = format!(
             "`{}`: base motion against joint effort.\n\n{}\n\
              B and E are the terms of the problem's cost about the base and about the joints; \
-             every\nplan minimises factor·B + E.\n",
+             every\nplan minimises factor·B + E, \
+             or E under a bound on B where no factor leads.\n",
             self.name,
             self.sheet().markdown()
         );
@@ -110,7 +114,10 @@ impl<'a> ParetoReport<'a> {
         ]);
         for row in &self.rows {
             sheet.row(vec![
-                format!("{:.3e}", row.factor),
+                match row.bound {
+                    Some(bound) => format!("B ≤ {bound:.3e}"),
+                    None => format!("{:.3e}", row.factor),
+                },
                 row.status.words().into(),
                 format!("{:.4e}", row.base_motion),
                 format!("{:.4e}", row.joint_effort),

@@ -5,7 +5,7 @@
 //! elementary functions (dual numbers), the controls linearly. Rows and cost terms add their own
 //! derivatives from these.
 
-use super::cost::PathTerm;
+use super::cost::{PathCost, PathTerm};
 use super::free_floating::FreeFloating;
 use super::linearization::{Adjoint, Linearization, Lower};
 use super::rows::PathRows;
@@ -183,18 +183,25 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             torque: &mut torque,
         };
         let at = self.linearization(point);
-        let (rows, cost) = weights[states..].split_at(weights.len() - states - 1);
-        let mut rest = rows;
+        let mut rest = &weights[states..];
         for block in &self.system.path {
             let (own, others) = rest.split_at(block.rows().len());
             block.weigh(&at, own, &mut adjoint);
             rest = others;
         }
         for term in &self.system.path_cost {
-            term.weigh(&at, cost[0], &mut adjoint);
+            term.weigh(&at, self.weight(term, rest), &mut adjoint);
         }
         self.base_weights = base;
         self.torque_weights = torque;
+    }
+
+    /// The weight on `term`, of those on the running cost and, where that is bounded, the base's motion.
+    fn weight(&self, term: &PathCost, on_cost: &[f64]) -> f64 {
+        match on_cost {
+            [cost, base] if self.system.is_of_base(term) => cost + base,
+            _ => on_cost[0],
+        }
     }
 
     /// Adds what bends with η: η and ω₀ in the base's outputs, and RᵀL where the system tumbles.
@@ -313,8 +320,12 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
             block.gradient(&at, own);
             rest = others;
         }
+        let (cost, base) = rest.split_at_mut(width);
         for term in &system.path_cost {
-            term.gradient(&at, rest);
+            term.gradient(&at, cost);
+            if !base.is_empty() && system.is_of_base(term) {
+                term.gradient(&at, base);
+            }
         }
     }
 
@@ -360,15 +371,14 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
             self.add_torques(point.u, &mut hessian);
         }
         let at = self.linearization(point);
-        let (rows, cost) = weights[states..].split_at(weights.len() - states - 1);
-        let mut rest = rows;
+        let mut rest = &weights[states..];
         for block in &system.path {
             let (own, others) = rest.split_at(block.rows().len());
             block.curvature(&at, own, &mut hessian);
             rest = others;
         }
         for term in &system.path_cost {
-            term.curvature(&at, cost[0], &mut hessian);
+            term.curvature(&at, self.weight(term, rest), &mut hessian);
         }
     }
 }

@@ -66,9 +66,22 @@ impl Bounded {
                 &limits.control,
             ),
             path: path.iter().flat_map(PathRows::rows).cloned().collect(),
-            boundary: end.iter().flat_map(EndRows::rows).cloned().collect(),
+            boundary: (end.iter().flat_map(EndRows::rows).cloned())
+                .chain(base_motion(problem))
+                .collect(),
         }
     }
+}
+
+/// The row of what the cost counts of the base, the last of the end.
+fn base_motion(problem: &Problem) -> Option<Row> {
+    let most = problem.limits.base_motion;
+    most.is_finite().then(|| {
+        let id = BoundId::new(LimitId::BaseMotion, Component::BaseMotion);
+        let bounds = Interval::new(f64::NEG_INFINITY, most);
+        let row = Row::new(id, Unit::One, LimitId::BaseMotion.words(), bounds).sized(most);
+        row.scaled(most)
+    })
 }
 
 /// Rows of the attitude parameters.
@@ -165,7 +178,13 @@ pub(crate) fn formulation<Sp: Space>(
     };
     // Starts bring their own peaks; one stands for those that are not known.
     let peaks = PeakRow::all(problem).into_iter();
-    peaks.fold(formulation, |formulation, peak| {
+    let formulation = peaks.fold(formulation, |formulation, peak| {
         formulation.parameter(peak.quantity(), 1.0)
-    })
+    });
+    let most = problem.limits.base_motion;
+    match most.is_finite() {
+        true => formulation
+            .integral(Quantity::new("base motion along the path", Interval::FREE).scaled(most)),
+        false => formulation,
+    }
 }

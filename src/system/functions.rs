@@ -1,6 +1,6 @@
 //! The functions of the optimal control problem, eq. (7) to (18): dynamics, rows, cost.
 
-use super::cost::{EndTerm, PathTerm};
+use super::cost::{EndTerm, PathCost, PathTerm, Side};
 use super::derivatives;
 use super::free_floating::FreeFloating;
 use super::instant::{Instant, Pose};
@@ -20,6 +20,8 @@ pub struct Scratch<Sp: Space, S: Scalar> {
     coriolis: Vec<S>,
     /// τ = Hu.
     torque: Vec<S>,
+    /// The running cost of the base alone, where that is bounded.
+    base_motion: S,
 }
 
 impl<Sp: Space> Ocp for FreeFloating<Sp> {
@@ -35,6 +37,7 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
             data: Data::new(self.tree()),
             coriolis: vec![S::zero(); n],
             torque: vec![S::zero(); n],
+            base_motion: S::zero(),
         }
     }
 
@@ -53,6 +56,7 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
             data,
             coriolis,
             torque,
+            base_motion,
         } = scratch;
         tree.kinematics(theta, data);
         tree.momentum(data);
@@ -94,7 +98,22 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
             block.values(&at, own);
             rest = others;
         }
+        if self.bounds_base_motion() {
+            let base = self.path_cost.iter().filter(|term| self.is_of_base(term));
+            *base_motion = sum(base.map(|term| term.value(&at)));
+        }
         sum(self.path_cost.iter().map(|term| term.value(&at)))
+    }
+
+    fn integrands<S: Scalar>(
+        &self,
+        _point: Point<'_, S>,
+        scratch: &mut Scratch<Sp, S>,
+        integrands: &mut [S],
+    ) {
+        if let [base] = integrands {
+            *base = scratch.base_motion;
+        }
     }
 
     fn way_point<S: Scalar>(
@@ -137,11 +156,26 @@ impl<Sp: Space> Ocp for FreeFloating<Sp> {
             block.values(&at, own);
             rest = others;
         }
+        if let ([base], [along]) = (rest, ends.integrals) {
+            let own = self.end_cost.iter();
+            let own = own.filter(|term| EndTerm::<Sp>::side(*term) == Side::Base);
+            *base = *along + sum(own.map(|term| term.value(&at)));
+        }
         sum(self.end_cost.iter().map(|term| term.value(&at)))
     }
 }
 
 impl<Sp: Space> FreeFloating<Sp> {
+    /// Whether what the cost counts of the base is bounded: by an integral and the last row of the end.
+    pub(super) fn bounds_base_motion(&self) -> bool {
+        !self.formulation.integrals.is_empty()
+    }
+
+    /// Whether a term of the running cost counts the base's motion alone.
+    pub(super) fn is_of_base(&self, term: &PathCost) -> bool {
+        PathTerm::<Sp>::side(term) == Side::Base
+    }
+
     /// The pose at the states `x`, `t` seconds after t₀, with the static parameters.
     pub(super) fn pose<'a, S: Scalar>(
         &'a self,

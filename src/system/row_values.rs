@@ -11,7 +11,7 @@ use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::ocp::Ocp;
 use crate::problem::Problem;
-use crate::transcription::Discretization;
+use crate::transcription::{Discretization, integrals};
 
 impl<Sp: Space> FreeFloating<Sp> {
     /// The goal for the end effector at t_f.
@@ -74,7 +74,8 @@ impl<Sp: Space> FreeFloating<Sp> {
     /// Values of the boundary rows at the ends of `trajectory`.
     pub fn end_values(&self, trajectory: &Discretization) -> Vec<f64> {
         let mut rows = vec![0.0; self.bounded.boundary.len()];
-        let trajectory = self.with_peaks(trajectory.clone());
+        let mut trajectory = self.with_peaks(trajectory.clone());
+        trajectory.integrals = integrals(self, &self.formulation, &trajectory);
         self.boundary(trajectory.ends(), &mut self.scratch::<f64>(), &mut rows);
         rows
     }

@@ -33,6 +33,31 @@ fn peaks_in_the_plane_and_in_space() {
     }
 }
 
+/// An integral beside the running cost, and a row of the end that adds what counts there.
+#[test]
+fn a_bound_on_all_that_counts_of_the_base() {
+    let bounded = |problem: Problem| {
+        let edited = problem.edited(|problem| {
+            problem.cost.rate_matrix = None;
+            problem.limits.base_motion = 0.7;
+        });
+        edited.unwrap()
+    };
+    check_problem(&bounded(peaked(&loaded(problems::two_link()))), small());
+    let arm = loaded(trees::chain(3, 4));
+    let mesh = || Mesh::uniform(1, 2).unwrap();
+    for attitude in [
+        SpatialAttitude::RollPitchYaw,
+        SpatialAttitude::Quaternion,
+        SpatialAttitude::Mrp,
+    ] {
+        let problem = bounded(peaked(&described(arm.clone(), attitude)));
+        check_problem(&problem, mesh());
+        let system = FreeFloating::spatial(&problem);
+        check(&Elastic::new(&system, groups(&system), 1e-3), mesh());
+    }
+}
+
 #[test]
 fn limits_give_way_and_peaks_do_not() {
     let problem = peaked(&loaded(problems::two_link()));

@@ -9,6 +9,7 @@ use crate::problem::limit_id::LimitId;
 
 pub(super) fn check(problem: &ProblemBuilder) -> Checked {
     every_bound(problem)?;
+    base_motion(problem)?;
     rotation_angles(problem)
 }
 
@@ -27,6 +28,32 @@ fn every_bound(problem: &ProblemBuilder) -> Checked {
         for (i, bound) in entry.bounds.iter().enumerate() {
             interval(&indexed(&key, i, expected), bound)?;
         }
+    }
+    Ok(())
+}
+
+/// What is bounded has to be weighed, and told apart from the motion of the joints.
+fn base_motion(problem: &ProblemBuilder) -> Checked {
+    let (most, cost) = (problem.limits.base_motion, &problem.cost);
+    let key = LimitId::BaseMotion.key();
+    if most == f64::INFINITY {
+        return Ok(());
+    }
+    if most.is_nan() || most <= 0.0 {
+        return Err(error(key, most.to_string(), "a number above zero"));
+    }
+    let mut on_base = cost.entries().filter(|entry| entry.components.is_on_base());
+    if !on_base.any(|entry| entry.weights.iter().any(|weight| *weight > 0.0)) {
+        let found = "a cost without a weight on the base";
+        return Err(error(
+            key,
+            found,
+            "a weight on the base, such as cost.base_rate",
+        ));
+    }
+    if cost.rate_matrix.is_some() {
+        let found = "cost.rate_matrix, which weighs base and joints together";
+        return Err(error(key, found, "weights by component alone"));
     }
     Ok(())
 }

@@ -4,30 +4,54 @@ use super::point::ParetoPoint;
 
 /// Part of the distance of two neighbours within which a point between them is at one of them.
 const AT_AN_END: f64 = 0.05;
-/// Ratio of two factors below which there is nothing between them.
+/// Ratio of two factors below which there is nothing between them for weights to find.
 const NEXT: f64 = 1.01;
+/// Part of the whole front's extent below which two neighbours are near enough.
+const NEAR: f64 = 0.01;
 
-/// The first of the two neighbours, both solved, that are farthest apart; those with a factor of
-/// `closed` as the first are left out.
-pub(super) fn widest(points: &[ParetoPoint], closed: &[f64]) -> Option<usize> {
-    let gaps = (1..points.len()).filter_map(|k| {
-        let [a, b] = [&points[k - 1], &points[k]];
-        let is_open = a.is_solved()
-            && b.is_solved()
-            && b.factor > NEXT * a.factor
-            && !closed.contains(&a.factor);
-        is_open.then(|| (k - 1, distance(points, a, b)))
-    });
-    let widest = gaps.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (widest.1 > 0.0).then_some(widest.0)
+/// How the part of a front between two neighbours is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum By {
+    /// By weights between theirs.
+    Weights,
+    /// By a bound on the base's motion between theirs: no weights lead there.
+    Bound,
 }
 
-/// Whether `point`, planned between two neighbours, is at one of them.
+/// The first of two neighbours, and how to get in between.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gap {
+    pub first: usize,
+    pub by: By,
+}
+
+/// The gap between two neighbours, both solved, that are farthest apart; `closed` are the factors of
+/// the first neighbours of those that were tried, each with how.
+pub(super) fn widest(points: &[ParetoPoint], closed: &[(f64, By)]) -> Option<Gap> {
+    let gaps = (1..points.len()).filter_map(|k| {
+        let [a, b] = [&points[k - 1], &points[k]];
+        let tried = |by: By| closed.contains(&(a.factor, by));
+        let weighable = a.bound.is_none() && b.bound.is_none() && b.factor > NEXT * a.factor;
+        let by = match weighable && !tried(By::Weights) {
+            true => By::Weights,
+            false => By::Bound,
+        };
+        // A bound takes base motion from the first for more effort.
+        let ordered = by == By::Weights || a.base > b.base && a.joints < b.joints;
+        let is_open = a.is_solved() && b.is_solved() && ordered && !tried(by);
+        is_open.then(|| (Gap { first: k - 1, by }, distance(points, a, b)))
+    });
+    let widest = gaps.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (widest.1 > NEAR).then_some(widest.0)
+}
+
+/// Whether `point`, planned between two neighbours, is at one of them, or no better than one.
 pub(super) fn is_at_an_end(point: &ParetoPoint, neighbours: &[ParetoPoint]) -> bool {
     let apart = |end: &ParetoPoint| distance(neighbours, point, end);
     let least = neighbours.iter().map(apart).fold(f64::INFINITY, f64::min);
+    let dominated = |end: &ParetoPoint| end.base <= point.base && end.joints <= point.joints;
     // The whole distance is √2: each coordinate counts in parts of the neighbours' own range.
-    !point.is_solved() || least < AT_AN_END
+    !point.is_solved() || least < AT_AN_END || neighbours.iter().any(dominated)
 }
 
 /// Distance of two points, each coordinate in parts of its range over all solved `points`.

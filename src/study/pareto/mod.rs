@@ -3,11 +3,11 @@
 //! The cost (14) is split into what is about the base, B, and what is about the joints, E. Its
 //! minimisers with κB + E instead of B + E, κ from small to large, are points of the Pareto front
 //! of the two: B falls and E rises along it, if no point's motion is better at another's κ than that
-//! point's own.
+//! point's own. Where the front is not convex no κ leads, and B is bounded instead.
 //!
 //! | file | does |
 //! | --- | --- |
-//! | `gaps` | where neighbours are farthest apart |
+//! | `gaps` | where neighbours are farthest apart, and how to get in between |
 //! | `point` | one point of the front |
 //! | `weights` | the factors κ, and the cost they weigh |
 
@@ -24,7 +24,7 @@ use crate::problem::Problem;
 use crate::refine::Start;
 use crate::study::search::{Search, SearchEvent};
 use crate::system::cost_terms;
-use gaps::widest;
+use gaps::{By, Gap, widest};
 use std::time::Duration;
 use weights::scaled;
 
@@ -209,32 +209,69 @@ impl<'a> ParetoFront<'a> {
         better
     }
 
-    /// Up to `count` further points, one after another where solved neighbours are farthest apart, at
-    /// the factor in the middle of theirs.
-    ///
-    /// Fewer where no factor leads in between: a part of the front that is not convex has no minimiser
-    /// of a weighted sum.
+    /// Up to `count` further points, one after another where solved neighbours are farthest apart: at the
+    /// factor in the middle of theirs, and where no factor leads in between, since that part of the front
+    /// is not convex, under a bound on the base's motion in the middle of theirs (the ε-constraint method,
+    /// Y. Y. Haimes, L. S. Lasdon, D. A. Wismer, doi:10.1109/TSMC.1971.4308298).
     ///
     /// # Errors
     /// [`PlanError`] as of [`Planner::plan_with`].
     pub fn fill(&mut self, count: usize, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
         let mut closed = Vec::new();
-        for left in (1..=count).rev() {
-            if self.is_over() {
-                break;
-            }
-            let Some(k) = widest(&self.points, &closed) else {
+        let mut left = count;
+        while left > 0 && !self.is_over() {
+            let Some(Gap { first: k, by }) = widest(&self.points, &closed) else {
                 break;
             };
-            let factor = (self.points[k].factor * self.points[k + 1].factor).sqrt();
-            let point = self.plan((factor, Some(k)), (self.starts(), left), monitor)?;
-            if gaps::is_at_an_end(&point, &self.points[k..k + 2]) {
-                closed.push(self.points[k].factor);
+            let first = self.points[k].factor;
+            let factor = (first * self.points[k + 1].factor).sqrt();
+            let point = match by {
+                By::Weights => self.plan((factor, Some(k)), (self.starts(), left), monitor)?,
+                By::Bound => self.plan_bounded(k, factor, left, monitor)?,
+            };
+            let nothing_new = gaps::is_at_an_end(&point, &self.points[k..k + 2]);
+            if nothing_new {
+                closed.push((first, by));
             }
-            self.points.insert(k + 1, point);
+            // What weights lead to may be better than what stands there, and is handed on.
+            if by == By::Weights || !nothing_new {
+                self.points.insert(k + 1, point);
+                left -= 1;
+            }
             self.hand_on(monitor)?;
         }
         Ok(())
+    }
+
+    /// A point between point `k` and the next: by the weights of the first, with the base's motion bounded
+    /// by the middle of both, from the motion of the second, which keeps that bound.
+    fn plan_bounded(
+        &mut self,
+        k: usize,
+        factor: f64,
+        left: usize,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<ParetoPoint, PlanError> {
+        let [first, next] = [&self.points[k], &self.points[k + 1]];
+        let bound = 0.5 * (first.base + next.base);
+        let weight = first.factor;
+        let bounded = scaled(self.problem, weight)?.edited(|problem| {
+            let own = &mut problem.limits.base_motion;
+            *own = own.min(weight * bound);
+        })?;
+        let problem = self.within_share(bounded, left)?;
+        let start = self.start(k + 1).map(|start| Start {
+            iterate: None,
+            ..start
+        });
+        let plan = self.plan_from(&problem, start, &mut |&event| {
+            monitor(factor, &SearchEvent::of_plan(event))
+        })?;
+        let point = self.point(factor, plan);
+        Ok(ParetoPoint {
+            bound: Some(bound),
+            ..point
+        })
     }
 
     /// Hands motions to neighbours where they are better, down and up, until none is.
@@ -267,7 +304,7 @@ impl<'a> ParetoFront<'a> {
         let [own, other] = [k, neighbour].map(|i| &self.points[i]);
         let factor = own.factor;
         let better = other.scalarised(factor) < own.scalarised(factor) * (1.0 - GAIN);
-        if !other.is_solved() || own.is_solved() && !better {
+        if own.bound.is_some() || !other.is_solved() || own.is_solved() && !better {
             return Ok(false);
         }
         let point = self.plan((factor, Some(neighbour)), (Starts::Given, 1), monitor)?;
@@ -332,6 +369,7 @@ impl<'a> ParetoFront<'a> {
         let terms = cost_terms(self.problem, &plan.discretization);
         ParetoPoint {
             factor,
+            bound: None,
             base: terms.base(),
             joints: terms.joints(),
             plan,

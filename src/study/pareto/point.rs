@@ -6,8 +6,11 @@ use crate::planner::{Plan, Status};
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ParetoPoint {
-    /// Factor κ on the base's weights.
+    /// Factor κ on the base's weights; between those of its neighbours where `bound` is what makes the
+    /// point.
     pub factor: f64,
+    /// Bound on B, without the factor, of a point that no factor leads to; of the others none.
+    pub bound: Option<f64>,
     /// Base motion B, without the factor.
     pub base: f64,
     /// Joint effort E.

@@ -37,6 +37,7 @@ pub fn balanced(problem: &Problem) -> (Problem, Vec<String>) {
 pub(super) fn scaled(problem: &Problem, factor: f64) -> Result<Problem, ProblemError> {
     let angles = problem.component_count(ComponentKind::BaseRate);
     problem.edited(|problem| {
+        problem.limits.base_motion *= factor;
         let cost = &mut problem.cost;
         for entry in cost.entries_mut().filter(|e| e.components.is_on_base()) {
             for weight in entry.weights {

@@ -28,6 +28,8 @@ pub enum Component {
     NotReversed,
     /// The largest value of a quantity of the base.
     Peak,
+    /// All that the cost counts of the base.
+    BaseMotion,
 }
 
 /// Which limit, and which component of it.
@@ -127,6 +129,12 @@ impl Row {
     pub fn sized(mut self, size: f64) -> Self {
         self.size = size;
         self.quantity.size = Some(size);
+        self
+    }
+
+    /// The same with another scale of the programme.
+    pub fn scaled(mut self, scale: f64) -> Self {
+        self.quantity.scale = Some(scale);
         self
     }
 
