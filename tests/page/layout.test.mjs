@@ -44,6 +44,46 @@ for (const name of names) {
   });
 }
 
+// Where a PDF's pages have what links lead to: [page, height] by name.
+function destinations(pdf) {
+  const found = pdf.matchAll(/\/?\(?(mark-\d+-\d+)\)?\s*\[\s*(\d+) 0 R\s*\/XYZ\s+[\d.-]+\s+([\d.-]+)/g);
+  return new Map([...found].map(([, name, page, height]) => [name, [Number(page), Number(height)]]));
+}
+
+for (const name of names) test(`${name}: no heading is printed below which its page ends`, async () => {
+  const { page, close } = await open(browser, name);
+  // Links to every heading, and to the first piece of what it stands over.
+  const count = await page.evaluate(() => {
+    const shown = (node) => node.getClientRects().length && !["SCRIPT", "TABLE", "THEAD", "TBODY"].includes(node.tagName);
+    const headings = [...document.querySelectorAll("h2")].filter((node) => node.getClientRects().length);
+    const links = document.createElement("div");
+    links.style.cssText = "font-size: 1px; line-height: 1px; height: 1px";
+    headings.forEach((heading, k) => {
+      const printed = (node) => !node.closest(".stages, .controls, .options, #keys, details");
+      const rest = [...heading.parentElement.querySelectorAll("p, tr, figure, li")];
+      const first = rest.find((node) => shown(node) && printed(node));
+      [heading, first].forEach((node, i) => {
+        // In tables a cell, for rows are no targets.
+        const target = node.tagName === "TR" ? node.firstElementChild : node;
+        const mark = document.createElement("span");
+        mark.id = `mark-${k}-${i}`;
+        target.prepend(mark);
+        links.append(Object.assign(document.createElement("a"), { href: `#${mark.id}`, textContent: "." }));
+      });
+    });
+    document.body.append(links);
+    return headings.length;
+  });
+  const places = destinations((await page.pdf({ format: "A4" })).toString("latin1"));
+  assert.equal(places.size, 2 * count);
+  for (let k = 0; k < count; k += 1) {
+    const [[sheet, height], [below, lower]] = [0, 1].map((i) => places.get(`mark-${k}-${i}`));
+    const gap = height - lower;
+    assert.ok(sheet === below && gap > 0 && gap < 80, `heading ${k}: ${sheet}, ${height} and ${below}, ${lower}`);
+  }
+  await close();
+});
+
 test("the problem stands in a table, in degrees", async () => {
   const { page, close } = await open(browser, "table1-relaxed");
   const row = page.locator("table.joints tr").filter({ has: page.locator("th", { hasText: "elbow" }) });

@@ -35,6 +35,9 @@ const SCRIPT: &str = concat!(
     include_str!("camera.js"),
     include_str!("picture.js"),
     include_str!("playback.js"),
+    include_str!("download.js"),
+    include_str!("span.js"),
+    include_str!("stretch.js"),
     include_str!("charts.js"),
     include_str!("main.js"),
 );
@@ -179,9 +182,18 @@ fn facts(facts: &[Fact]) -> Markup {
 
 fn chart(panel: &Panel) -> Markup {
     let frame = panel.figure.frames().first().map(|frame| {
-        let [low, high] = frame.x;
-        let of = [frame.left, frame.top, frame.width, frame.height, low, high];
-        of.map(|value| format!("{value:.5}")).join(" ")
+        let ([from, to], [low, high]) = (frame.x, frame.y);
+        let of = [
+            frame.left,
+            frame.top,
+            frame.width,
+            frame.height,
+            from,
+            to,
+            low,
+            high,
+        ];
+        of.map(|value| format!("{value:.7e}")).join(" ")
     });
     let svg = panel.figure.svg_with_groups();
     html! {
