@@ -9,6 +9,7 @@ mod outline;
 mod repair;
 mod urdf;
 
+use super::appearance::{Appearance, Part};
 use super::document::quoted;
 use super::files::Files;
 use super::item::{Item, hint};
@@ -88,6 +89,27 @@ impl Robot {
     /// Mass properties of the spacecraft that is attached, in the frame of the root link.
     pub(super) fn spacecraft(&self) -> Option<&Inertia> {
         self.spacecraft.as_ref()
+    }
+
+    /// What the bodies look like.
+    pub(super) fn appearance(&self) -> Appearance {
+        let looks = self.description.looks.iter();
+        let parts = looks.filter_map(|(link, looks)| {
+            // Links above a base that floats are left out.
+            let (joint, frame) = self.description.body(link)?;
+            let part = move |look: &urdf::Look| Part {
+                link: link.clone(),
+                joint,
+                placement: frame.then(&look.placement),
+                form: look.form.clone(),
+                is_collision: look.is_collision,
+            };
+            Some(looks.iter().map(part))
+        });
+        Appearance {
+            parts: parts.flatten().collect(),
+            has_spacecraft: self.spacecraft.is_some(),
+        }
     }
 
     /// Name of the body at whose frame the end effector is, with an offset where there is one.

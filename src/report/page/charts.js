@@ -14,9 +14,11 @@ function makeCharts(section, numbers, clock) {
     const box = element("input", { type: "checkbox", onchange: () => section.classList.toggle("divided", box.checked) });
     options.append(element("label", {}, box, " mesh lines"));
   }
-  options.append(spanControls(span, clock));
-  const hint = "Click to move the playback. Shift and drag to see a part of the time, in all charts; so do ctrl and the wheel. A double click shows the whole.";
-  options.after(element("p", { className: "hint options", textContent: hint }));
+  if (section.querySelector("[data-over-time]")) {
+    options.append(spanControls(span, clock));
+    const hint = "Click to move the playback. Shift and drag to see a part of the time, in all charts; so do ctrl and the wheel. A double click shows the whole.";
+    options.after(element("p", { className: "hint options", textContent: hint }));
+  }
 
   function makeChart(holder, data) {
     const svg = holder.querySelector("svg");

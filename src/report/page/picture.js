@@ -1,11 +1,11 @@
 // One picture of a motion at one moment, drawn on a canvas.
 
 const ON_WHITE = {
-  base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", joint: "#e69f00", path: "#d55e00", start: "#8a949e",
+  paper: "#ffffff", base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", outline: "#004a75", joint: "#e69f00", path: "#d55e00", start: "#8a949e",
   apart: "#cc79a7", mark: "#00704f", ghosts: ["#7a5195", "#8c6d1f"],
 };
 const ON_BLACK = {
-  ...ON_WHITE, edge: "#d6dce2", link: "#4ba6e0", path: "#ff8a3c", start: "#78828c", mark: "#3fcf9f",
+  ...ON_WHITE, paper: "#14181d", edge: "#d6dce2", link: "#4ba6e0", outline: "#1d4f70", path: "#ff8a3c", start: "#78828c", mark: "#3fcf9f",
   ghosts: ["#c4a0dd", "#d9bd66"],
 };
 
@@ -21,6 +21,11 @@ function extentOf(scene) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   const frames = [...scene.motions, ...scene.ghosts].flatMap((motion) => motion.frames);
   frames.push(...scene.marks.map((mark) => mark.at).filter(Boolean));
+  const boxes = scene.solids.map((solid) => [solid.body, cornersOf(solid)]);
+  if (boxes.length) for (const motion of scene.motions) motion.poses.forEach((_, k) => {
+    const poses = posesAt(motion, k);
+    frames.push(...boxes.map(([body, corners]) => poses[body](corners)));
+  });
   for (const frame of frames) frame.forEach((value, i) => {
     low[i % 3] = Math.min(low[i % 3], value);
     high[i % 3] = Math.max(high[i % 3], value);
@@ -43,7 +48,7 @@ function makePainter(scene, camera) {
     pen.clearRect(0, 0, width, height);
     pen.lineCap = pen.lineJoin = "round";
     const room = Math.min(width, height);
-    const scale = 0.88 * camera.zoom * Math.min(width / size[0], height / size[1]);
+    const scale = 0.94 * camera.zoom * Math.min(width / size[0], height / size[1]);
     const centre = camera.seen(middle, 0);
     const place = (points) => Array.from({ length: points.length / 3 }, (_, k) => {
       const [x, y, depth] = camera.seen(points, k);
@@ -105,7 +110,7 @@ function makePainter(scene, camera) {
 
     // The far before the near.
     const depth = (points) => points.reduce((sum, k) => sum + frame[k][2], 0) / points.length;
-    const items = faces.map((face) => ({ depth: depth(face), paint: () => {
+    const items = (scene.has_block ? faces : []).map((face) => ({ depth: depth(face), paint: () => {
       trace(face.map((k) => frame[k]));
       pen.closePath();
       pen.globalAlpha = 0.55;
@@ -114,12 +119,20 @@ function makePainter(scene, camera) {
       pen.globalAlpha = 1;
       stroke([...face, face[0]].map((k) => frame[k]), colours.edge, 1);
     } }));
-    for (const link of scene.links) {
-      const fromBase = link[0] === corners;
-      const [colour, thick] = fromBase ? [colours.edge, 1.5] : [colours.link, 5];
-      items.push({ depth: depth(link), paint: () => stroke(link.map((k) => frame[k]), colour, thick) });
-    }
-    for (const k of scene.joints) items.push({ depth: frame[k][2] + 1e-6 * size[0], paint: () => {
+    items.push(...facesOf(scene, motion, part * (motion.frames.length - 1), place, scale, pen, colours));
+    // Seen along any line a capsule is a line with round ends.
+    const capsule = Math.max(5, 2 * scale * scene.radius);
+    scene.links.forEach((link, number) => {
+      const ends = link.map((k) => frame[k]);
+      if (scene.bare[number]) items.push({ depth: depth(link), paint: () => {
+        stroke(ends, colours.outline, capsule + 1.5);
+        stroke(ends, colours.link, capsule);
+      } });
+      else if (link[0] === corners && scene.has_block) items.push({ depth: depth(link), paint: () => stroke(ends, colours.edge, 1.5) });
+    });
+    // In the plane joints are seen whatever lies upon them.
+    const lift = scene.planar ? Infinity : 1e-6 * size[0];
+    for (const k of scene.joints) items.push({ depth: frame[k][2] + lift, paint: () => {
       pen.beginPath();
       pen.arc(frame[k][0], frame[k][1], 4.5, 0, 2 * Math.PI);
       pen.fillStyle = colours.joint;
@@ -128,7 +141,7 @@ function makePainter(scene, camera) {
       pen.strokeStyle = colours.edge;
       pen.stroke();
     } });
-    if (!scene.planar) items.sort((a, b) => a.depth - b.depth);
+    if (!scene.planar || scene.solids.length) items.sort((a, b) => (a.depth === b.depth ? 0 : a.depth - b.depth));
     items.forEach((item) => item.paint());
 
     if (marks) for (const mark of scene.marks) {
@@ -149,6 +162,10 @@ function makePainter(scene, camera) {
       pen.stroke();
       pen.fillStyle = colours.mark;
       pen.font = "12px system-ui, sans-serif";
+      // Read upon the robot as well.
+      pen.lineWidth = 3;
+      pen.strokeStyle = colours.paper;
+      pen.strokeText(mark.label, at[0] + 10, at[1] - 9);
       pen.fillText(mark.label, at[0] + 10, at[1] - 9);
     }
   };
