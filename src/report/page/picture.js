@@ -84,28 +84,10 @@ function makePainter(scene, camera) {
       stroke([...path, frame[tip]], colours.path, 1);
     }
     for (const [a, b] of scene.box_edges) stroke([start[a], start[b]], colours.start, 1, [4, 4]);
-    // The second is dashed: they may lie upon each other.
-    for (const { one, number } of ghosts)
-      skeleton(one, part, colours.ghosts[number % colours.ghosts.length], number % 2 ? [6, 6] : []);
     if (marks) for (const mark of scene.marks) {
       pen.globalAlpha = 0.55;
       if (mark.of_joints) skeleton(motion, mark.part, colours.mark, [1, 4]);
       pen.globalAlpha = 1;
-    }
-
-    for (const [a, b] of scene.boxes) stroke([frame[a], frame[b]], colours.apart, 1, [2, 3]);
-    for (const [[a, b], radius] of scene.swept_spheres) {
-      const [[ax, ay], [bx, by]] = [frame[a], frame[b]];
-      const axis = Math.atan2(by - ay, bx - ax);
-      pen.setLineDash([2, 3]);
-      pen.strokeStyle = colours.apart;
-      pen.lineWidth = 1;
-      pen.beginPath();
-      pen.arc(ax, ay, scale * radius, axis + Math.PI / 2, axis + 1.5 * Math.PI);
-      pen.arc(bx, by, scale * radius, axis - Math.PI / 2, axis + Math.PI / 2);
-      pen.closePath();
-      pen.stroke();
-      pen.setLineDash([]);
     }
 
     // The far before the near.
@@ -143,6 +125,25 @@ function makePainter(scene, camera) {
     } });
     if (!scene.planar || scene.solids.length) items.sort((a, b) => (a.depth === b.depth ? 0 : a.depth - b.depth));
     items.forEach((item) => item.paint());
+
+    // Upon the robot, which would hide them.
+    // The second is dashed: they may lie upon each other.
+    for (const { one, number } of ghosts)
+      skeleton(one, part, colours.ghosts[number % colours.ghosts.length], number % 2 ? [6, 6] : []);
+    for (const [a, b] of scene.boxes) stroke([frame[a], frame[b]], colours.apart, 1, [2, 3]);
+    for (const [[a, b], radius] of scene.swept_spheres) {
+      const [[ax, ay], [bx, by]] = [frame[a], frame[b]];
+      const axis = Math.atan2(by - ay, bx - ax);
+      pen.setLineDash([2, 3]);
+      pen.strokeStyle = colours.apart;
+      pen.lineWidth = 1;
+      pen.beginPath();
+      pen.arc(ax, ay, scale * radius, axis + Math.PI / 2, axis + 1.5 * Math.PI);
+      pen.arc(bx, by, scale * radius, axis - Math.PI / 2, axis + Math.PI / 2);
+      pen.closePath();
+      pen.stroke();
+      pen.setLineDash([]);
+    }
 
     if (marks) for (const mark of scene.marks) {
       const then = frameOf(motion, mark.part);
