@@ -3,6 +3,7 @@
 use super::robot::RobotFile;
 use super::surface::{Shelf, Surface};
 use crate::dynamics::Placement;
+use std::sync::Arc;
 
 /// What the bodies of a robot look like; empty where its file says nothing of it.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -61,8 +62,9 @@ pub enum Form {
 pub struct Drawn {
     /// The part.
     pub part: Part,
-    /// Its surface, in the part's own frame, m; `None` for boxes, cylinders and spheres.
-    pub surface: Option<Surface>,
+    /// Its surface as in its file, before the factors of [`Form::File`], which take it to metres;
+    /// `None` for boxes, cylinders and spheres. Parts that name the same file share it.
+    pub surface: Option<Arc<Surface>>,
 }
 
 /// What can be drawn of a robot.
@@ -114,11 +116,9 @@ impl Appearance {
 impl Part {
     fn drawn(&self, shelf: &Shelf) -> Result<Drawn, String> {
         let surface = match &self.form {
-            Form::File { name, scale } => {
+            Form::File { name, .. } => {
                 let surface = shelf.surface(name);
-                let surface =
-                    surface.map_err(|why| format!("link '{}': {name}: {why}", self.link))?;
-                Some(surface.scaled(*scale))
+                Some(surface.map_err(|why| format!("link '{}': {name}: {why}", self.link))?)
             }
             _ => None,
         };

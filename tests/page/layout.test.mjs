@@ -2,33 +2,18 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { axe, launch, names, open, widths } from "./browser.mjs";
+import { launch, names, open, widths } from "./browser.mjs";
+import { lies, sheets } from "./screen.mjs";
 
 let browser;
 before(async () => { browser = await launch(); });
 after(() => browser.close());
 
-// What reaches beyond the window, unless it lies in something that scrolls by itself.
-const overhanging = () => {
-  const wide = document.documentElement.clientWidth;
-  const scrolls = (node) => node && node !== document.body &&
-    (["auto", "scroll", "hidden"].includes(getComputedStyle(node).overflowX) || scrolls(node.parentElement));
-  return [...document.body.querySelectorAll("*")]
-    .filter((node) => node.getBoundingClientRect().right > wide + 0.5 && !scrolls(node.parentElement))
-    .map((node) => node.outerHTML.slice(0, 80));
-};
-
 for (const name of names) {
   for (const [size, viewport] of Object.entries(widths)) for (const colorScheme of ["light", "dark"]) {
     test(`${name}, ${size}, ${colorScheme}: no error, no overhang, no serious fault of accessibility`, async () => {
       const { page, faults, close } = await open(browser, name, { viewport, colorScheme });
-      assert.deepEqual(await page.evaluate(overhanging), []);
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
-      await page.evaluate(axe);
-      const { violations } = await page.evaluate(() => window.axe.run());
-      const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
-      const told = serious.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html.slice(0, 120)).join(" | ")}`);
-      assert.deepEqual(told, []);
+      await lies(page, viewport);
       assert.deepEqual(faults, []);
       await close();
     });
@@ -36,8 +21,7 @@ for (const name of names) {
 
   test(`${name} prints to at most four pages`, async () => {
     const { page, faults, close } = await open(browser, name);
-    const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
-    const count = pdf.match(/\/Type\s*\/Page\b/g).length;
+    const count = await sheets(page);
     assert.ok(count <= 4, `${count} pages`);
     assert.deepEqual(faults, []);
     await close();

@@ -12,6 +12,7 @@ use super::robot::RobotFile;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Largest file, bytes.
 const LARGEST: u64 = 64 << 20;
@@ -24,24 +25,13 @@ const MOST_TRIANGLES: usize = 2_000_000;
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Surface {
-    /// m
+    /// Coordinates.
     pub vertices: Vec<[f64; 3]>,
     /// Numbers of vertices, all of them below their count.
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl Surface {
-    /// The same with each coordinate times its factor.
-    #[must_use]
-    pub(super) fn scaled(mut self, factors: [f64; 3]) -> Self {
-        for vertex in &mut self.vertices {
-            for (value, factor) in vertex.iter_mut().zip(factors) {
-                *value *= factor;
-            }
-        }
-        self
-    }
-
     /// Adds a vertex; its number is returned.
     fn vertex(&mut self, at: [f64; 3]) -> Result<u32, String> {
         if at
@@ -77,13 +67,15 @@ fn too_many() -> String {
     format!("too many triangles; expected at most {MOST_TRIANGLES}")
 }
 
+type Found = Result<Arc<Surface>, String>;
+
 /// Surfaces that a robot's file may name.
 pub(super) struct Shelf {
     /// The robot's file, if it is still there.
     robot: Result<PathBuf, String>,
     left: Cell<u64>,
     /// Those that were read, for links often share one.
-    read: RefCell<HashMap<PathBuf, Result<Surface, String>>>,
+    read: RefCell<HashMap<PathBuf, Found>>,
 }
 
 impl Shelf {
@@ -103,7 +95,7 @@ impl Shelf {
     }
 
     /// The surface in the file of this name, or why there is none.
-    pub(super) fn surface(&self, name: &str) -> Result<Surface, String> {
+    pub(super) fn surface(&self, name: &str) -> Found {
         let path = locate::file(self.robot.as_ref()?, name)?;
         let mut known = self.read.borrow_mut();
         known
@@ -112,7 +104,7 @@ impl Shelf {
             .clone()
     }
 
-    fn load(&self, path: &Path) -> Result<Surface, String> {
+    fn load(&self, path: &Path) -> Found {
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
         let parse = match ending.to_str() {
             Some("stl") => stl::parse,
@@ -121,7 +113,7 @@ impl Shelf {
         };
         let bytes = regular::read(path, LARGEST.min(self.left.get()))?;
         self.left.set(self.left.get() - bytes.len() as u64);
-        parse(&bytes)?.if_any()
+        parse(&bytes)?.if_any().map(Arc::new)
     }
 }
 

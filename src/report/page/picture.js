@@ -1,7 +1,7 @@
 // One picture of a motion at one moment, drawn on a canvas.
 
 const ON_WHITE = {
-  paper: "#ffffff", base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", outline: "#004a75", joint: "#e69f00", path: "#d55e00", start: "#8a949e",
+  paper: "#ffffff", base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", outline: "#003f8f", joint: "#e69f00", path: "#d55e00", start: "#8a949e",
   apart: "#cc79a7", mark: "#00704f", ghosts: ["#7a5195", "#8c6d1f"],
 };
 const ON_BLACK = {
@@ -112,9 +112,10 @@ function makePainter(scene, camera) {
       } });
       else if (link[0] === corners && scene.has_block) items.push({ depth: depth(link), paint: () => stroke(ends, colours.edge, 1.5) });
     });
-    // In the plane joints are seen whatever lies upon them.
-    const lift = scene.planar ? Infinity : 1e-6 * size[0];
-    for (const k of scene.joints) items.push({ depth: frame[k][2] + lift, paint: () => {
+    // A joint is seen upon the capsules that meet there; in the plane whatever lies upon it.
+    const jointDepth = (k) => (scene.planar ? Infinity : Math.max(frame[k][2], ...scene.links
+      .filter((link, number) => scene.bare[number] && link.includes(k)).map(depth)) + 1e-6 * size[0]);
+    for (const k of scene.joints) items.push({ depth: jointDepth(k), paint: () => {
       pen.beginPath();
       pen.arc(frame[k][0], frame[k][1], 4.5, 0, 2 * Math.PI);
       pen.fillStyle = colours.joint;

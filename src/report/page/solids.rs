@@ -1,10 +1,13 @@
 //! What the robot's file draws of its bodies, as faces.
 
 use super::coarse::{bounds, coarse};
-use crate::config::{Drawing, Drawn, Form};
+use crate::config::{Drawing, Drawn, Form, Surface};
+use crate::dynamics::MOST_LENGTH;
 use nalgebra::Vector3;
 use serde::Serialize;
+use std::collections::HashMap;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Triangles of all surfaces from files together: more are slow to draw, and hardly seen.
 const TRIANGLES: usize = 5000;
@@ -57,15 +60,18 @@ impl Solids {
         let mut complaints = drawing.complaints.clone();
         let surfaces = drawing.parts.iter().filter(|part| part.surface.is_some());
         let most = (TRIANGLES / surfaces.count().max(1)).max(LEAST);
+        let mut known = HashMap::new();
         for drawn in drawing.parts.iter().take(PARTS) {
-            let (vertices, faces) = found.faces(drawn, most);
+            let (vertices, faces) = found.faces(drawn, most, &mut known);
             if faces.is_empty() {
                 let (link, form) = (&drawn.part.link, &drawn.part.form);
                 let name = match form {
                     Form::File { name, .. } => name,
                     _ => "its shape",
                 };
-                complaints.push(format!("link '{link}': {name}: it has no size"));
+                complaints.push(format!(
+                    "link '{link}': {name}: it has no size, or is far too large"
+                ));
                 continue;
             }
             let body = drawn.part.joint.map_or(0, |joint| joint + 1);
@@ -117,33 +123,47 @@ impl Solids {
         Some(bounds(&points).map(Vector3::from))
     }
 
-    /// Vertices in the axes of the body, and faces.
-    fn faces(&mut self, drawn: &Drawn, most: usize) -> (Vec<Vector3<f64>>, Vec<Vec<u32>>) {
+    /// Vertices in the axes of the body, and faces; none where it has no size. `known` are surfaces made
+    /// coarser before.
+    fn faces(
+        &mut self,
+        drawn: &Drawn,
+        most: usize,
+        known: &mut HashMap<*const Surface, Faces>,
+    ) -> (Vec<Vector3<f64>>, Vec<Vec<u32>>) {
         let (vertices, faces) = match (&drawn.surface, &drawn.part.form) {
-            (Some(surface), _) => {
+            (Some(surface), Form::File { scale, .. }) => {
                 self.is_coarser |= surface.triangles.len() > most;
-                let (vertices, triangles) = coarse(surface, most);
-                (
-                    vertices,
-                    triangles.iter().map(|face| face.to_vec()).collect(),
-                )
+                let coarser = known.entry(Arc::as_ptr(surface)).or_insert_with(|| {
+                    let (vertices, triangles) = coarse(surface, most);
+                    let faces = triangles.iter().map(|face| face.to_vec());
+                    (vertices, faces.collect())
+                });
+                let (mut vertices, faces) = coarser.clone();
+                for vertex in &mut vertices {
+                    *vertex = std::array::from_fn(|i| scale[i] * vertex[i]);
+                }
+                (vertices, faces)
             }
-            (None, Form::Box(half)) => cuboid(*half),
+            (_, Form::Box(half)) => cuboid(*half),
             (
-                None,
+                _,
                 Form::Cylinder {
                     radius,
                     half_length,
                 },
             ) => cylinder(*radius, *half_length),
-            (None, Form::Sphere(radius)) => sphere(*radius),
+            (_, Form::Sphere(radius)) => sphere(*radius),
             (None, Form::File { .. }) => (Vec::new(), Vec::new()),
         };
         let placement = &drawn.part.placement;
-        let placed = vertices
-            .into_iter()
-            .map(|vertex| placement.translation + placement.rotation * Vector3::from(vertex));
-        (placed.collect(), faces)
+        let place = |vertex| placement.translation + placement.rotation * Vector3::from(vertex);
+        let placed: Vec<Vector3<f64>> = vertices.into_iter().map(place).collect();
+        let is_sane = |vertex: &Vector3<f64>| vertex.amax() <= MOST_LENGTH;
+        match placed.iter().all(is_sane) && placed.iter().any(|vertex| *vertex != placed[0]) {
+            true => (placed, faces),
+            false => (Vec::new(), Vec::new()),
+        }
     }
 }
 
