@@ -2,6 +2,7 @@
 //! to be a regular file of a sane size in the folder or package of the robot's, and nothing in it is
 //! taken on trust.
 
+mod dae;
 mod locate;
 mod obj;
 mod stl;
@@ -109,7 +110,8 @@ impl Shelf {
         let parse = match ending.to_str() {
             Some("stl") => stl::parse,
             Some("obj") => obj::parse,
-            _ => return Err("expected a file that ends in .stl or .obj".into()),
+            Some("dae") => dae::parse,
+            _ => return Err("expected a file that ends in .stl, .obj or .dae".into()),
         };
         let bytes = regular::read(path, LARGEST.min(self.left.get()))?;
         self.left.set(self.left.get() - bytes.len() as u64);

@@ -40,6 +40,56 @@ fn obj_is_read_with_its_polygons() {
     assert_eq!(found.triangles, [[0, 1, 2], [0, 2, 3]]);
 }
 
+/// Two triangles and a square in centimetres, moved by 1 m and turned about z by a right angle.
+const SCENE: &str = r##"<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="cm" meter="0.01"/><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="plate"><mesh>
+<source id="places"><float_array id="a" count="12">0 0 0 10 0 0 10 10 0 0 10 0</float_array></source>
+<source id="normals"><float_array id="n" count="3">0 0 1</float_array></source>
+<vertices id="vs"><input semantic="POSITION" source="#places"/></vertices>
+<triangles count="2"><input semantic="VERTEX" source="#vs" offset="0"/>
+<input semantic="NORMAL" source="#normals" offset="1"/><p>0 0 1 0 2 0 0 0 2 0 3 0</p></triangles>
+<polylist count="1"><input semantic="VERTEX" source="#vs" offset="0"/><vcount>4</vcount><p>0 1 2 3</p></polylist>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><translate>100 0 0</translate><node>
+<rotate>0 0 1 90</rotate><instance_geometry url="#plate"/></node></node></visual_scene></library_visual_scenes>
+</COLLADA>"##;
+
+#[test]
+fn dae_is_read_with_its_units_and_nodes() {
+    let found = dae::parse(SCENE.as_bytes()).unwrap();
+    assert_eq!((found.vertices.len(), found.triangles.len()), (12, 4));
+    for (k, expected) in [
+        (0, [1.0, 0.0, 0.0]),
+        (1, [1.0, 0.1, 0.0]),
+        (2, [0.9, 0.1, 0.0]),
+        (5, [0.9, 0.0, 0.0]),
+    ] {
+        let gap = (0..3).map(|i| (found.vertices[k][i] - expected[i]).abs());
+        assert!(
+            gap.fold(0.0, f64::max) < 1e-12,
+            "{k}: {:?}",
+            found.vertices[k]
+        );
+    }
+    for (old, new, expected) in [
+        ("0 0 2 0 3 0<", "0 0 2 0 4 0<", "vertices that are there"),
+        ("100 0 0<", "100 0<", "<translate>: expected 3 numbers"),
+        ("10 10 0 0", "10 ten 0 0", "<float_array>: expected numbers"),
+        (
+            "meter=\"0.01\"",
+            "meter=\"1e300\"",
+            "not finite, or far away",
+        ),
+        ("</COLLADA>", "", "not XML"),
+        ("COLLADA", "KML", "not <COLLADA>"),
+    ] {
+        let error = dae::parse(SCENE.replace(old, new).as_bytes()).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
 #[test]
 fn what_is_no_surface_is_refused() {
     for (bytes, expected) in [
@@ -85,6 +135,7 @@ fn package() -> (tempfile::TempDir, RobotFile) {
     )
     .unwrap();
     fs::write(root.join("meshes/c.dae"), "<COLLADA/>").unwrap();
+    fs::write(root.join("meshes/d.ply"), "ply").unwrap();
     fs::write(place.path().join("secret.stl"), binary(1, 1)).unwrap();
     let path = root.join("urdf/arm.urdf");
     fs::write(&path, "<robot/>").unwrap();
@@ -175,15 +226,15 @@ fn damaged_files_do_no_harm() {
     let mut random = fastrand::Rng::with_seed(7);
     let text = format!("solid a\n{FACET}{FACET}endsolid a\n").into_bytes();
     let polygons = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf -1 -2 -3\n".to_vec();
-    for whole in [text, binary(3, 3), polygons] {
-        for _ in 0..20_000 {
+    for whole in [text, binary(3, 3), polygons, SCENE.as_bytes().to_vec()] {
+        for _ in 0..5_000 {
             let mut bytes = whole.clone();
             for _ in 0..1 + random.usize(..4) {
                 let at = random.usize(..bytes.len());
                 bytes[at] = random.u8(..);
             }
             bytes.truncate(random.usize(..2 * whole.len()));
-            for parse in [stl::parse, obj::parse] {
+            for parse in [stl::parse, obj::parse, dae::parse] {
                 if let Ok(surface) = parse(&bytes) {
                     let known = surface.vertices.len() as u32;
                     assert!(
