@@ -1,6 +1,6 @@
 //! What a robot looks like, as its file says: nothing that a plan depends on.
 
-use super::robot::RobotFile;
+use super::robot_file::RobotFile;
 use super::surface::{Shelf, Surface};
 use crate::dynamics::Placement;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! A robot as described, before it becomes a model: bodies can be welded together, joints locked.
 
 use super::bodies::Bodies;
-use super::urdf::Look;
+use super::look::Look;
 use crate::config::faults::Faults;
 use crate::config::figures::Unusable;
 use crate::config::{ConfigError, Place};

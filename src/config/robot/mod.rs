@@ -3,6 +3,7 @@
 mod bodies;
 mod description;
 mod file;
+mod look;
 mod model;
 mod notes;
 mod outline;
@@ -13,6 +14,7 @@ use super::appearance::{Appearance, Part};
 use super::document::quoted;
 use super::files::Files;
 use super::item::{Item, hint};
+use super::robot_file::RobotFile;
 use super::{ConfigError, Place};
 use crate::dynamics::{Inertia, Placement};
 use crate::problem::{Problem, Shape};
@@ -21,15 +23,6 @@ use description::Description;
 pub(super) use outline::{Outline, OutlineJoint};
 use repair::Repair;
 use std::path::Path;
-
-/// The file a robot was read from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RobotFile {
-    /// Path, as found from the problem file.
-    pub path: String,
-    /// Its text.
-    pub text: String,
-}
 
 /// A robot that has been read and can still be loaded with a spacecraft.
 pub(super) struct Robot {
@@ -97,7 +90,7 @@ impl Robot {
         let parts = looks.filter_map(|(link, looks)| {
             // Links above a base that floats are left out.
             let (joint, frame) = self.description.body(link)?;
-            let part = move |look: &urdf::Look| Part {
+            let part = move |look: &look::Look| Part {
                 link: link.clone(),
                 joint,
                 placement: frame.then(&look.placement),

@@ -9,7 +9,7 @@ mod stl;
 
 use super::files::Files;
 use super::regular;
-use super::robot::RobotFile;
+use super::robot_file::RobotFile;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

@@ -1,11 +1,11 @@
 //! `<link>`: a name, its `<inertial>`, what it fills and what it looks like.
 
 use super::element::{Attribute, Element};
-use super::visual::{self, Look};
-use super::{collision, origin};
+use super::{collision, origin, visual};
 use crate::config::faults::Faults;
 use crate::config::figures::{Figures, Unusable, last_digit};
 use crate::config::robot::bodies::Bodies;
+use crate::config::robot::look::Look;
 use crate::config::{ConfigError, Place};
 use crate::dynamics::Inertia;
 use crate::problem::Shape;

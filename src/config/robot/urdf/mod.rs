@@ -22,7 +22,6 @@ use roxmltree::Node;
 use std::collections::HashSet;
 use std::sync::Arc;
 use tree::Tree;
-pub(super) use visual::Look;
 use xml::RUN_XACRO;
 
 /// Reads a robot, its bodies changed as `bodies` say; `file` is the name of its file in messages,

@@ -4,15 +4,8 @@
 use super::element::Element;
 use super::origin;
 use crate::config::appearance::Form;
-use crate::dynamics::{MOST_LENGTH, Placement};
-
-/// A part of a link, in the link's frame.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::config::robot) struct Look {
-    pub placement: Placement,
-    pub form: Form,
-    pub is_collision: bool,
-}
+use crate::config::robot::look::Look;
+use crate::dynamics::MOST_LENGTH;
 
 /// All parts of a link.
 pub(super) fn read(link: &Element<'_, '_>) -> Vec<Look> {
