@@ -14,9 +14,9 @@ use std::error::Error;
 use std::path::Path;
 
 /// Time between two plans, s.
-const PERIOD: f64 = 4.0;
+const PERIOD: f64 = 8.0;
 /// By how much the base turns in that time beside the plan, rad.
-const DISTURBANCE: f64 = 0.005;
+const DISTURBANCE: f64 = 0.01;
 
 /// The part of `plan` from this fraction of its duration on, on the same mesh: where the next search
 /// begins.
@@ -30,7 +30,7 @@ fn rest(plan: &Discretization, from: f64) -> Discretization {
 
 /// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/config/table1-smooth.toml");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/config/planar-3link.toml");
     let whole = ProblemFile::load(Path::new(file), &Overrides::default())?.problem;
     let joints = whole.robot.joint_count();
     let mut planner = Planner::new();

@@ -19,15 +19,15 @@ const SLOW: [&str; 6] = [
 /// Ends of commands that show what goes wrong.
 const STATUSES: [(&str, i32); 1] = [("plan config/table1.toml", 3)];
 
-/// The documents in the order of the book, then the README.
-fn documents() -> Vec<PathBuf> {
+/// The documents in the order of the book.
+fn chapters() -> Vec<PathBuf> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let summary = std::fs::read_to_string(top.join("docs/SUMMARY.md")).unwrap();
     let names = summary.lines().filter_map(|line| {
         let (_, rest) = line.split_once("](")?;
         Some(top.join("docs").join(rest.strip_suffix(')')?))
     });
-    names.chain([top.join("README.md")]).collect()
+    names.collect()
 }
 
 /// Lines of code blocks that call the program.
@@ -48,8 +48,14 @@ fn commands(path: &Path) -> Vec<String> {
     found
 }
 
-/// Runs those that `wanted` holds of; how many there were.
+/// Runs those that `wanted` holds of, of the book in one folder, of the README in another; how many there
+/// were.
 fn run(wanted: impl Fn(&str) -> bool) -> usize {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    run_all(&chapters(), &wanted) + run_all(&[readme], &wanted)
+}
+
+fn run_all(documents: &[PathBuf], wanted: impl Fn(&str) -> bool) -> usize {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let place = tempfile::tempdir().unwrap();
     symlink(top.join("config"), place.path().join("config")).unwrap();
@@ -67,8 +73,8 @@ fn run(wanted: impl Fn(&str) -> bool) -> usize {
         .chain(env::split_paths(&paths));
     let paths = env::join_paths(paths).unwrap();
     let mut count = 0;
-    for document in documents() {
-        for line in commands(&document).iter().filter(|line| wanted(line)) {
+    for document in documents {
+        for line in commands(document).iter().filter(|line| wanted(line)) {
             let began = Instant::now();
             let ended = Command::new("sh")
                 .args(["-c", line])
