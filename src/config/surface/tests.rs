@@ -179,9 +179,10 @@ fn files_are_found_in_the_package_and_nowhere_else() {
         ("package://other/meshes/a.stl", "not found in the folder"),
         ("package://other", "expected package://NAME/PATH"),
         ("../meshes/none.stl", "not found beside"),
+        ("../meshes/c.dae", "no triangle is in it"),
         (
-            "../meshes/c.dae",
-            "expected a file that ends in .stl or .obj",
+            "../meshes/d.ply",
+            "expected a file that ends in .stl, .obj or .dae",
         ),
         ("../meshes", "expected a file that ends in"),
     ] {

@@ -7,6 +7,9 @@ use std::collections::{HashMap, HashSet};
 const FINEST: f64 = 512.0;
 /// By what the cells grow from one grid to the next.
 const GROWTH: f64 = 1.25;
+/// Part of a cell by which the grid begins before the surface: vertices lie at even parts of its size, and
+/// rounding is not to tell apart those that are one.
+const OFFSET: f64 = 0.37;
 /// Cells along the longest edge of which no shape is left.
 const COARSEST: f64 = 3.0;
 
@@ -51,7 +54,7 @@ fn clustered(
     let renumbered: Vec<u32> = vertices
         .iter()
         .map(|vertex| {
-            let of_grid = |i: usize| ((vertex[i] - low[i]) / cell).floor() as i64;
+            let of_grid = |i: usize| ((vertex[i] - low[i]) / cell + OFFSET).floor() as i64;
             let number = *numbers.entry([0, 1, 2].map(of_grid)).or_insert_with(|| {
                 sums.push(([0.0; 3], 0.0));
                 sums.len() - 1
