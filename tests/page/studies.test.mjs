@@ -32,7 +32,7 @@ test("every figure of a dispersion has its quantiles, as in the JSON, and its hi
   const figures = Object.values(written("dispersed", "dispersion.json").figures);
   const rows = page.locator("section", { has: page.locator("h2", { hasText: "Quantiles" }) }).locator("tbody tr, table > tr");
   assert.equal(await rows.count(), figures.length);
-  const charts = page.locator("section", { has: page.locator("h2", { hasText: "Distributions" }) }).locator("figure svg");
+  const charts = page.locator("section", { has: page.locator("h2", { hasText: "Distributions" }) }).locator(".chart > svg");
   assert.equal(await charts.count(), figures.length);
   assert.match(await page.locator("header p").textContent(), /In 99 of 100 replays it stays below \d/);
   await close();
