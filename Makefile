@@ -1,6 +1,6 @@
 # Developers' tasks; scripts/demo.sh and scripts/test.sh do without make.
 .DEFAULT_GOAL := help
-.PHONY: help build test python wheel deb book slurm-check fuzz test-ipopt-3.14 random-tasks random-plans test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean page
+.PHONY: help build test python wheel deb book book-commands slurm-check fuzz test-ipopt-3.14 random-tasks random-plans test-threads miri oracle bench bench-quick bench-parts bench-kkt casadi lint doc import-circles urdf-real demo fresh table2 figures reproduction platform-fit clean page
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z0-9.-]+:.*## / { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -13,6 +13,9 @@ test: ## run every test in release
 
 python: ## test the Python package
 	scripts/python.sh
+
+book-commands: ## run every command of the book, one after another (minutes)
+	cargo test --release --locked --test cli all_commands_of_the_book -- --ignored --nocapture
 
 book: ## make the book of docs/ in target/book, links checked
 	scripts/book.sh

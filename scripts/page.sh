@@ -46,6 +46,10 @@ for problem in "${problems[@]}"; do
   case $problem in *-robot.toml) continue ;; esac
   "$built/ffsm-ipopt" plan "$problem" --quiet --out "$pages/$(basename "$problem" .toml)"
 done
+# What other studies found, each with a page of its own or on that of its plan.
+"$built/ffsm-ipopt" plan config/table1-smooth.toml --search 6 --quiet --out "$pages/searched"
+"$built/ffsm-ipopt" disperse "$pages/chaser-7dof/solution.json" --samples 2000 --quiet --out "$pages/dispersed"
+"$built/ffsm-ipopt" pareto config/table1-smooth.toml --points 4 --fill 0 --out "$pages/traded" >"$home/pareto.log"
 
 FFSM_PAGE_HOME=$PWD/$home FFSM_PAGES=$PWD/$pages FFSM_CHROMIUM=$FFSM_CHROMIUM \
   node --test --test-concurrency=1 "$@" tests/page/*.test.mjs

@@ -14,6 +14,8 @@ mod plan_from_file;
 mod plan_in_code;
 #[path = "../examples/replan_many.rs"]
 mod replan_many;
+#[path = "../examples/replan_on_the_way.rs"]
+mod replan_on_the_way;
 #[path = "../examples/shuttle_reentry.rs"]
 mod shuttle_reentry;
 #[path = "../examples/static_parameter.rs"]
@@ -66,6 +68,11 @@ fn plan_in_code_runs() {
 #[test]
 fn replan_many_runs() {
     replan_many::main().unwrap();
+}
+
+#[test]
+fn replan_on_the_way_runs() {
+    replan_on_the_way::main().unwrap();
 }
 
 #[test]

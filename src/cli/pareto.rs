@@ -111,7 +111,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let report = ParetoReport::of(&problem.name, front.points(), &notes);
     let to = ("pareto", &folder);
     let (text, figure) = (report.markdown(), report.figure());
-    rows::write(to, &report, &text, &figure, FileSet::new(), arguments.json)?;
+    let mut set = FileSet::new();
+    set.add(&folder, "pareto.html", &report.page());
+    rows::write(to, &report, &text, &figure, set, arguments.json)?;
     Ok(outcome(
         front.points().iter().map(|point| point.plan.status),
     ))

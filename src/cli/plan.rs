@@ -271,7 +271,9 @@ pub(super) fn add(
     match page {
         // A trajectory with values that are no numbers has nothing to show.
         Page::Made(baselines) if verify::check(&file.problem, &plan.discretization).is_ok() => {
-            let page = report::page(&saved, &file.problem, &plan.discretization, baselines);
+            let drawing = file.appearance.drawing(&file.robot);
+            let motions = (&plan.discretization, baselines);
+            let page = report::page(&saved, &file.problem, motions, &drawing);
             set.add(folder, PAGE, &page);
         }
         Page::Made(_) | Page::Left => set.without(folder, PAGE),

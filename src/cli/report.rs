@@ -40,7 +40,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let folder = OutputFolder::create(within)?;
     let (solution, doubt) = saved.again();
     let baselines = Baselines::of(problem, &saved.plan);
-    folder.write(name, &page(&solution, problem, &saved.plan, &baselines))?;
+    let drawing = saved.file.appearance.drawing(&saved.file.robot);
+    let page = page(&solution, problem, (&saved.plan, &baselines), &drawing);
+    folder.write(name, &page)?;
     let mut lines = Lines::default();
     lines.files(&[out]);
     let (heading, outcome) = match &doubt {

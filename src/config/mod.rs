@@ -7,6 +7,7 @@
 //! expected. docs/problem-file.md, docs/robot-file.md and docs/platform-file.md describe the
 //! formats.
 
+mod appearance;
 mod base;
 mod batch;
 mod dispersion;
@@ -29,13 +30,16 @@ mod problem;
 mod read_back;
 pub(crate) mod regular;
 mod robot;
+mod robot_file;
 mod starter;
+mod surface;
 mod tables;
 mod trust;
 mod values;
 mod way_point;
 mod xml_text;
 
+pub use appearance::{Appearance, Drawing, Drawn, Form, Part};
 pub use batch::{BatchFile, BatchRow, Cell, CellKind};
 pub use dispersion::{Dispersed, Dispersion, Perturbation};
 pub use distribution::Distribution;
@@ -44,8 +48,9 @@ pub use fit::{Experiment, FitFile, Hypothesis, PlanSource};
 pub use overrides::Overrides;
 pub use platform::PlatformFile;
 pub use problem::ProblemFile;
-pub use robot::RobotFile;
+pub use robot_file::RobotFile;
 pub use starter::{Starter, StarterJoint};
+pub use surface::Surface;
 pub use trust::{trust_options, trusts_options};
 
 use document::Value;

@@ -1,10 +1,12 @@
 //! The problem file.
 
+use super::appearance::Appearance;
 use super::document::{Node, quoted};
 use super::faults::Faults;
 use super::files::Files;
 use super::item::{Item, Section};
-use super::robot::{self, Robot, RobotFile};
+use super::robot::{self, Robot};
+use super::robot_file::RobotFile;
 use super::trust::Origin;
 use super::values::Components;
 use super::{ConfigError, Overrides, Place, base, long_way, tables};
@@ -32,6 +34,8 @@ pub struct ProblemFile {
     /// Mass properties of the bodies that `robot.bodies` changes, each in its own frame, as they went
     /// into the model.
     pub bodies: Vec<(String, Inertia)>,
+    /// What the robot looks like.
+    pub appearance: Appearance,
     /// What a user should know of how the files were read, though nothing is wrong; a line each.
     pub notes: Vec<String>,
     /// What was changed of the robot, as `robot.repair` or `robot.minimum_mass` asks or because
@@ -162,6 +166,7 @@ impl ProblemFile {
             notes: notes.chain(long_way).collect(),
             end_effector: robot.end_effector(),
             bodies: robot.changed().to_vec(),
+            appearance: robot.appearance(),
             spacecraft: robot.spacecraft().cloned(),
             repairs: robot.changes,
             problem,

@@ -27,6 +27,8 @@ pub(super) enum Part {
     Entry(usize),
     /// Boundaries of segments.
     Divisions,
+    /// Ticks with their labels and the lines of the grid.
+    Ticks,
 }
 
 /// One element. Lengths are points, y points down.

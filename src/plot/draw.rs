@@ -194,6 +194,11 @@ impl<'a> Layout<'a> {
         [self.x.low, self.x.high]
     }
 
+    /// What the y axis reaches from and to.
+    pub fn y_range(&self) -> [f64; 2] {
+        [self.y.low, self.y.high]
+    }
+
     /// Draws the chart, the upper left corner of its frame at (left, top).
     pub fn draw(&self, canvas: &mut Canvas, [left, top]: [f64; 2]) {
         let chart = self.chart;
@@ -277,16 +282,14 @@ impl Frame {
     fn grid(&self, canvas: &mut Canvas, chart: &Chart) {
         let right = self.left + self.width;
         let [_, ticks] = self.ticks(chart);
-        for tick in ticks.iter().filter(|tick| !tick.label.is_empty()) {
-            if let Some([_, y]) = self.place([self.x.low, tick.value]) {
-                canvas.path(
-                    &[[self.left, y], [right, y]],
-                    Colour::Light,
-                    0.35,
-                    Stroke::Solid,
-                );
+        canvas.group(Part::Ticks, |canvas| {
+            for tick in ticks.iter().filter(|tick| !tick.label.is_empty()) {
+                if let Some([_, y]) = self.place([self.x.low, tick.value]) {
+                    let line = [[self.left, y], [right, y]];
+                    canvas.path(&line, Colour::Light, 0.35, Stroke::Solid);
+                }
             }
-        }
+        });
         if chart.divisions.is_empty() {
             return;
         }
@@ -304,21 +307,23 @@ impl Frame {
         let bottom = self.top + self.height;
         let [x_ticks, y_ticks] = self.ticks(chart);
         let length = |tick: &Tick| if tick.label.is_empty() { 1.5 } else { 3.0 };
-        for tick in &x_ticks {
-            if let Some([x, _]) = self.place([tick.value, self.y.low]) {
-                let line = [[x, bottom], [x, bottom - length(tick)]];
-                canvas.path(&line, Colour::Black, 0.6, Stroke::Solid);
-                canvas.text([x, bottom + TICK + 2.0], Anchor::Middle, TICK, &tick.label);
+        canvas.group(Part::Ticks, |canvas| {
+            for tick in &x_ticks {
+                if let Some([x, _]) = self.place([tick.value, self.y.low]) {
+                    let line = [[x, bottom], [x, bottom - length(tick)]];
+                    canvas.path(&line, Colour::Black, 0.6, Stroke::Solid);
+                    canvas.text([x, bottom + TICK + 2.0], Anchor::Middle, TICK, &tick.label);
+                }
             }
-        }
-        for tick in &y_ticks {
-            if let Some([_, y]) = self.place([self.x.low, tick.value]) {
-                let line = [[self.left, y], [self.left + length(tick), y]];
-                canvas.path(&line, Colour::Black, 0.6, Stroke::Solid);
-                let at = [self.left - 3.0, y + 0.36 * TICK];
-                canvas.text(at, Anchor::End, TICK, &tick.label);
+            for tick in &y_ticks {
+                if let Some([_, y]) = self.place([self.x.low, tick.value]) {
+                    let line = [[self.left, y], [self.left + length(tick), y]];
+                    canvas.path(&line, Colour::Black, 0.6, Stroke::Solid);
+                    let at = [self.left - 3.0, y + 0.36 * TICK];
+                    canvas.text(at, Anchor::End, TICK, &tick.label);
+                }
             }
-        }
+        });
         let centre = [self.left + 0.5 * self.width, self.top + 0.5 * self.height];
         if !chart.x.label.is_empty() {
             let at = [centre[0], bottom + TICK + LABEL + 5.0];

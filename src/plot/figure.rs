@@ -111,6 +111,7 @@ impl Figure {
                 width: layout.width() / width,
                 height: layout.height(),
                 x: layout.x_range(),
+                y: layout.y_range(),
             });
         });
         for frame in &mut frames {
@@ -173,6 +174,8 @@ pub struct Frame {
     pub height: f64,
     /// What the x axis reaches from and to.
     pub x: [f64; 2],
+    /// What the y axis reaches from and to.
+    pub y: [f64; 2],
 }
 
 #[cfg(test)]
@@ -263,6 +266,7 @@ mod tests {
             assert!(gap.fold(0.0, f64::max) < 0.02, "{found:?}, {window:?}");
         }
         assert_eq!(frames[0].x, [0.0, 20.0]);
+        assert!(frames[0].y[0] < frames[0].y[1]);
     }
 
     #[test]

@@ -52,6 +52,7 @@ fn of(element: &Element) -> String {
         Element::Group(Part::Curve(entry)) => format!("<g data-curve=\"{entry}\">"),
         Element::Group(Part::Entry(entry)) => format!("<g data-entry=\"{entry}\">"),
         Element::Group(Part::Divisions) => "<g data-divisions=\"\">".into(),
+        Element::Group(Part::Ticks) => "<g data-ticks=\"\">".into(),
         Element::Ungroup => "</g>".into(),
         Element::Path {
             points,

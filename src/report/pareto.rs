@@ -98,7 +98,8 @@ impl<'a> ParetoReport<'a> {
         text
     }
 
-    fn sheet(&self) -> Sheet {
+    /// One row a point.
+    pub(super) fn sheet(&self) -> Sheet {
         let mut sheet = Sheet::new(&[
             "factor on the base",
             "status",

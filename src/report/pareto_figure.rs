@@ -7,36 +7,53 @@ use crate::plot::{Axis, Chart, Figure, Marker, Series, Width};
 impl ParetoReport<'_> {
     /// Base motion over joint effort, and the base's angles over the factor; solved points only.
     pub fn figure(&self) -> Figure {
-        let solved: Vec<&ParetoRow> = self.rows.iter().filter(|row| row.is_solved()).collect();
-        let of =
-            |value: fn(&ParetoRow) -> f64| solved.iter().map(|row| value(row)).collect::<Vec<_>>();
-        let (base, joints) = (of(|row| row.base_motion), of(|row| row.joint_effort));
-        let curve = Chart::new(
+        let description = format!("{}: base motion against joint effort", self.name);
+        let curve = self.curve().title("(a) Terms of the cost");
+        let angles = self.angles().title("(b) Base attitude");
+        Figure::new(&description, Width::Page)
+            .columns(2)
+            .panel(curve.height(150.0))
+            .panel(angles.height(150.0))
+    }
+
+    /// Base motion over joint effort.
+    pub(super) fn curve(&self) -> Chart {
+        let (base, joints) = (
+            self.solved(|row| row.base_motion),
+            self.solved(|row| row.joint_effort),
+        );
+        Chart::new(
             axis("Joint effort E", &joints),
             axis("Base motion B", &base),
         )
-        .title("(a) Terms of the cost")
-        .series(Series::line("", &joints, &base).marker(Marker::Disc));
-        let factor = of(|row| row.factor);
-        let largest = of(|row| row.max_base_attitude.to_degrees());
-        let last = of(|row| row.final_base_attitude.to_degrees());
-        let angles = Chart::new(
+        .series(
+            Series::line("", &joints, &base)
+                .named("base motion B")
+                .marker(Marker::Disc),
+        )
+    }
+
+    /// The base's angles over the factor.
+    pub(super) fn angles(&self) -> Chart {
+        let factor = self.solved(|row| row.factor);
+        let largest = self.solved(|row| row.max_base_attitude.to_degrees());
+        let last = self.solved(|row| row.final_base_attitude.to_degrees());
+        Chart::new(
             Axis::log("Factor on the base's weights"),
             Axis::linear("Angle (deg)"),
         )
-        .title("(b) Base attitude")
         // The larger marker is seen where both are the same.
         .series(
             Series::line("largest", &factor, &largest)
                 .width(2.2)
                 .marker(Marker::Square),
         )
-        .series(Series::line("final", &factor, &last).marker(Marker::Cross));
-        let description = format!("{}: base motion against joint effort", self.name);
-        Figure::new(&description, Width::Page)
-            .columns(2)
-            .panel(curve.height(150.0))
-            .panel(angles.height(150.0))
+        .series(Series::line("final", &factor, &last).marker(Marker::Cross))
+    }
+
+    fn solved(&self, value: fn(&ParetoRow) -> f64) -> Vec<f64> {
+        let solved = self.rows.iter().filter(|row| row.is_solved());
+        solved.map(value).collect()
     }
 }
 

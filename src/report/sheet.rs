@@ -33,6 +33,11 @@ impl Sheet {
         self.rows.push(cells);
     }
 
+    /// The header, then the rows.
+    pub(super) fn lines(&self) -> (&[String], &[Vec<String>]) {
+        (&self.header, &self.rows)
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.rows.len()

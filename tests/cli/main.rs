@@ -4,6 +4,7 @@
 mod program;
 
 mod attitude;
+mod book;
 mod check;
 mod endings;
 mod export;

@@ -160,6 +160,7 @@ fn pareto_trades_base_motion_for_joint_effort() {
         assert!((factors[k] / factors[k - 1] - 1e4f64.cbrt()).abs() < 1e-9);
     }
     for name in [
+        "pareto.html",
         "pareto.md",
         "pareto.csv",
         "pareto.json",

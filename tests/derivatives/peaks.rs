@@ -46,12 +46,10 @@ fn a_bound_on_all_that_counts_of_the_base() {
     check_problem(&bounded(peaked(&loaded(problems::two_link()))), small());
     let arm = loaded(trees::chain(3, 4));
     let mesh = || Mesh::uniform(1, 2).unwrap();
-    for attitude in [
-        SpatialAttitude::RollPitchYaw,
-        SpatialAttitude::Quaternion,
-        SpatialAttitude::Mrp,
-    ] {
-        let problem = bounded(peaked(&described(arm.clone(), attitude)));
+    let described = [SpatialAttitude::Quaternion, SpatialAttitude::Mrp]
+        .map(|attitude| described(arm.clone(), attitude));
+    for arm in [arm].iter().chain(&described) {
+        let problem = bounded(peaked(arm));
         check_problem(&problem, mesh());
         let system = FreeFloating::spatial(&problem);
         check(&Elastic::new(&system, groups(&system), 1e-3), mesh());

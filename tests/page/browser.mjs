@@ -13,7 +13,6 @@ const playwright = require("playwright-core");
 export const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 export const names = readdirSync(pages).filter((name) => existsSync(join(pages, name, "report.html")));
 export const widths = { narrow: { width: 400, height: 800 }, wide: { width: 1280, height: 900 } };
-export const solution = (name) => JSON.parse(readFileSync(join(pages, name, "solution.json"), "utf8"));
 
 export const launch = () => playwright.chromium.launch({
   executablePath: chromium,
@@ -23,8 +22,12 @@ export const launch = () => playwright.chromium.launch({
   ],
 });
 
-/** The page of a problem; `faults` collects errors of the console and requests to anywhere else. */
-export async function open(browser, name, options = {}) {
+/** What a command wrote as JSON beside its page. */
+export const written = (name, file) => JSON.parse(readFileSync(join(pages, name, file), "utf8"));
+export const solution = (name) => written(name, "solution.json");
+
+/** The page of a problem, or another in its folder; `faults` collects errors of the console and requests to anywhere else. */
+export async function open(browser, name, options = {}, file = "report.html") {
   const context = await browser.newContext({
     viewport: widths.wide, reducedMotion: "reduce", acceptDownloads: true, ...options,
   });
@@ -32,7 +35,7 @@ export async function open(browser, name, options = {}) {
   const faults = [];
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(error.message));
-  const address = pathToFileURL(join(pages, name, "report.html")).href;
+  const address = pathToFileURL(join(pages, name, file)).href;
   page.on("request", (request) => {
     const url = request.url();
     if (url !== address && !url.startsWith("data:") && !url.startsWith("blob:")) faults.push(`asks for ${url}`);

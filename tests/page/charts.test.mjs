@@ -114,6 +114,107 @@ test("a chart is had as SVG with its legend and as CSV with its numbers", async 
   await close();
 });
 
+test("a chart is had as PNG, four pixels a point", async () => {
+  const { page, faults, close } = await open(browser, NAME);
+  const figure = chart(page, "Joint angles");
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    figure.getByRole("button", { name: "Download Joint angles as PNG" }).click(),
+  ]);
+  assert.equal(download.suggestedFilename(), "joint-angles.png");
+  const bytes = readFileSync(await download.path());
+  assert.equal(bytes.subarray(1, 4).toString(), "PNG");
+  const [width, height] = [bytes.readUInt32BE(16), bytes.readUInt32BE(20)];
+  assert.ok(width === 4 * 252 && height > width / 3, `${width} by ${height}`);
+  // White paper, and curves on it.
+  const colours = await page.evaluate(async (text) => {
+    const picture = new Image();
+    picture.src = `data:image/png;base64,${text}`;
+    await picture.decode();
+    const canvas = new OffscreenCanvas(picture.width, picture.height);
+    const pen = canvas.getContext("2d");
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, picture.width, picture.height);
+    const count = (r, g, b) => {
+      let found = 0;
+      for (let k = 0; k < data.length; k += 4) found += data[k] === r && data[k + 1] === g && data[k + 2] === b;
+      return found;
+    };
+    return [count(255, 255, 255) / (data.length / 4), count(0, 0x72, 0xb2)];
+  }, bytes.toString("base64"));
+  assert.ok(colours[0] > 0.8 && colours[1] > 300, colours.join());
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+// Times that stand below a chart.
+const ticks = (figure) => figure.locator(".chart text[text-anchor=middle]").evaluateAll((texts) => texts
+  .filter((text) => text.getClientRects().length && !Number.isNaN(Number(text.textContent)))
+  .map((text) => Number(text.textContent)));
+
+test("a part of the time is seen in all charts, by buttons, hand and wheel", async () => {
+  const { page, faults, close } = await open(browser, NAME);
+  const { trajectory } = solution(NAME);
+  const [figure, other] = [chart(page, "Joint angles"), chart(page, "Base rate")];
+  const group = page.getByRole("group", { name: "Time shown" });
+  const seen = async () => {
+    const text = await group.locator("output").textContent();
+    return text ? text.match(/[\d.]+/g).map(Number) : [0, 20];
+  };
+  const path = (one) => one.locator(".chart [data-curve] path").first().getAttribute("d");
+  const whole = [await path(figure), await path(other)];
+  assert.deepEqual(await ticks(figure), [0, 5, 10, 15, 20]);
+
+  await page.keyboard.down("Shift");
+  await page.mouse.move(...await point(page, figure, 0.25));
+  await page.mouse.down();
+  await page.mouse.move(...await point(page, figure, 0.5), { steps: 3 });
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  const [from, to] = await seen();
+  assert.ok(Math.abs(from - 5) < 0.1 && Math.abs(to - 10) < 0.1, `${from} to ${to}`);
+  for (const one of [figure, other]) {
+    const labels = await ticks(one);
+    assert.ok(labels.every((label) => label >= from - 0.1 && label <= to + 0.1), labels.join());
+  }
+  // The cursor's line and the curve under it are at the time and value of the solution.
+  const k = trajectory.t.findIndex((t) => t > 7);
+  await page.mouse.move(...await point(page, figure, (trajectory.t[k] - from) / (to - from)));
+  const [time, , elbow] = await figure.locator(".readout div").allTextContents();
+  assert.ok(Math.abs(parseFloat(time) - trajectory.t[k]) < 0.06, time);
+  const wanted = (180 / Math.PI) * trajectory.joint_position[k][1];
+  assert.ok(Math.abs(Number(elbow.match(/[−\d.]+$/)[0].replace("−", "-")) - wanted) < 0.5, elbow);
+  // So is the curve itself, by the labels beside it.
+  const drawn = await figure.evaluate((node, at) => {
+    const labels = [...node.querySelectorAll(".chart text[text-anchor=end]")].filter((text) => text.getClientRects().length);
+    const [a, b] = labels.map((text) => [Number(text.textContent.replace("−", "-")), Number(text.getAttribute("y")) - 0.36 * Number(text.getAttribute("font-size"))]);
+    const line = node.querySelectorAll(".chart [data-curve] path")[1];
+    const points = line.getAttribute("d").slice(1).split("L").map((pair) => pair.split(" ").map(Number));
+    const svg = node.querySelector(".chart > svg > svg");
+    const [x, w] = ["x", "width"].map((name) => Number(svg.getAttribute(name)));
+    const place = x + at * w, next = points.findIndex(([px]) => px > place), [p, q] = [points[next - 1], points[next]];
+    const y = p[1] + ((place - p[0]) / (q[0] - p[0])) * (q[1] - p[1]);
+    return a[0] + ((y - a[1]) / (b[1] - a[1])) * (b[0] - a[0]);
+  }, (trajectory.t[k] - from) / (to - from));
+  assert.ok(Math.abs(drawn - wanted) < 0.5, `${drawn}, wanted ${wanted}`);
+
+  assert.notEqual(await path(figure), whole[0]);
+  await group.getByRole("button", { name: "Show all of the time" }).click();
+  assert.deepEqual([await path(figure), await path(other)], whole);
+  await group.getByRole("button", { name: "Show less time" }).click();
+  assert.ok(Math.abs((await seen())[1] - (await seen())[0] - 10) < 0.1);
+  await page.mouse.move(...await point(page, figure, 0.5));
+  await page.keyboard.down("Control");
+  await page.mouse.wheel(0, -300);
+  await page.keyboard.up("Control");
+  const shorter = await seen();
+  assert.ok(shorter[1] - shorter[0] < 5, shorter.join());
+  await page.mouse.dblclick(...await point(page, figure, 0.5));
+  assert.deepEqual([await path(figure), await path(other)], whole);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test("a name that a spreadsheet would compute is quoted for it", async () => {
   const { page, close } = await open(browser, "hostile-names");
   const [download] = await Promise.all([

@@ -2,33 +2,18 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { axe, launch, names, open, widths } from "./browser.mjs";
+import { launch, names, open, widths } from "./browser.mjs";
+import { lies, sheets } from "./screen.mjs";
 
 let browser;
 before(async () => { browser = await launch(); });
 after(() => browser.close());
 
-// What reaches beyond the window, unless it lies in something that scrolls by itself.
-const overhanging = () => {
-  const wide = document.documentElement.clientWidth;
-  const scrolls = (node) => node && node !== document.body &&
-    (["auto", "scroll", "hidden"].includes(getComputedStyle(node).overflowX) || scrolls(node.parentElement));
-  return [...document.body.querySelectorAll("*")]
-    .filter((node) => node.getBoundingClientRect().right > wide + 0.5 && !scrolls(node.parentElement))
-    .map((node) => node.outerHTML.slice(0, 80));
-};
-
 for (const name of names) {
   for (const [size, viewport] of Object.entries(widths)) for (const colorScheme of ["light", "dark"]) {
     test(`${name}, ${size}, ${colorScheme}: no error, no overhang, no serious fault of accessibility`, async () => {
       const { page, faults, close } = await open(browser, name, { viewport, colorScheme });
-      assert.deepEqual(await page.evaluate(overhanging), []);
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
-      await page.evaluate(axe);
-      const { violations } = await page.evaluate(() => window.axe.run());
-      const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
-      const told = serious.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html.slice(0, 120)).join(" | ")}`);
-      assert.deepEqual(told, []);
+      await lies(page, viewport);
       assert.deepEqual(faults, []);
       await close();
     });
@@ -36,13 +21,52 @@ for (const name of names) {
 
   test(`${name} prints to at most four pages`, async () => {
     const { page, faults, close } = await open(browser, name);
-    const pdf = (await page.pdf({ format: "A4" })).toString("latin1");
-    const count = pdf.match(/\/Type\s*\/Page\b/g).length;
+    const count = await sheets(page);
     assert.ok(count <= 4, `${count} pages`);
     assert.deepEqual(faults, []);
     await close();
   });
 }
+
+// Where a PDF's pages have what links lead to: [page, height] by name.
+function destinations(pdf) {
+  const found = pdf.matchAll(/\/?\(?(mark-\d+-\d+)\)?\s*\[\s*(\d+) 0 R\s*\/XYZ\s+[\d.-]+\s+([\d.-]+)/g);
+  return new Map([...found].map(([, name, page, height]) => [name, [Number(page), Number(height)]]));
+}
+
+for (const name of names) test(`${name}: no heading is printed below which its page ends`, async () => {
+  const { page, close } = await open(browser, name);
+  // Links to every heading, and to the first piece of what it stands over.
+  const count = await page.evaluate(() => {
+    const shown = (node) => node.getClientRects().length && !["SCRIPT", "TABLE", "THEAD", "TBODY"].includes(node.tagName);
+    const headings = [...document.querySelectorAll("h2")].filter((node) => node.getClientRects().length);
+    const links = document.createElement("div");
+    links.style.cssText = "font-size: 1px; line-height: 1px; height: 1px";
+    headings.forEach((heading, k) => {
+      const printed = (node) => !node.closest(".stages, .controls, .options, #keys, details");
+      const rest = [...heading.parentElement.querySelectorAll("p, tr, figure, li")];
+      const first = rest.find((node) => shown(node) && printed(node));
+      [heading, first].forEach((node, i) => {
+        // In tables a cell, for rows are no targets.
+        const target = node.tagName === "TR" ? node.firstElementChild : node;
+        const mark = document.createElement("span");
+        mark.id = `mark-${k}-${i}`;
+        target.prepend(mark);
+        links.append(Object.assign(document.createElement("a"), { href: `#${mark.id}`, textContent: "." }));
+      });
+    });
+    document.body.append(links);
+    return headings.length;
+  });
+  const places = destinations((await page.pdf({ format: "A4" })).toString("latin1"));
+  assert.equal(places.size, 2 * count);
+  for (let k = 0; k < count; k += 1) {
+    const [[sheet, height], [below, lower]] = [0, 1].map((i) => places.get(`mark-${k}-${i}`));
+    const gap = height - lower;
+    assert.ok(sheet === below && gap > 0 && gap < 80, `heading ${k}: ${sheet}, ${height} and ${below}, ${lower}`);
+  }
+  await close();
+});
 
 test("the problem stands in a table, in degrees", async () => {
   const { page, close } = await open(browser, "table1-relaxed");

@@ -89,7 +89,8 @@ test("goals and way-points are drawn where the problem has them", async () => {
     const { trajectory } = solution(name);
     const { place } = await mapping(page, trajectory, ARMS.capture);
     const { circle, inside } = await ring(page, place(at(trajectory)));
-    assert.ok(circle > 0.7 && inside < 0.3, `${name}: ${circle} of the ring, ${inside} within`);
+    // Within lies an axis of the goal at most.
+    assert.ok(circle > 0.7 && inside < 0.5, `${name}: ${circle} of the ring, ${inside} within`);
     await close();
   }
 });

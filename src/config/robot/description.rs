@@ -1,6 +1,7 @@
 //! A robot as described, before it becomes a model: bodies can be welded together, joints locked.
 
 use super::bodies::Bodies;
+use super::look::Look;
 use crate::config::faults::Faults;
 use crate::config::figures::Unusable;
 use crate::config::{ConfigError, Place};
@@ -62,6 +63,8 @@ pub(super) struct Description {
     /// What bodies fill by their names, in their own frames; an error for a part that is no shape
     /// that is known.
     pub collisions: Vec<(String, Vec<Result<Shape, ConfigError>>)>,
+    /// What is drawn of bodies by their names, in their own frames.
+    pub looks: Vec<(String, Vec<Look>)>,
     /// What is wrong with the file, though the rest of it could be read.
     pub faults: Faults,
     /// Mass properties that cannot be used, by their bodies; these are massless until
@@ -85,6 +88,7 @@ impl Description {
             frames: Vec::new(),
             end_effector: None,
             collisions: Vec::new(),
+            looks: Vec::new(),
             faults: Faults::default(),
             unusable: Vec::new(),
             changed: Vec::new(),

@@ -3,15 +3,18 @@
 mod bodies;
 mod description;
 mod file;
+mod look;
 mod model;
 mod notes;
 mod outline;
 mod repair;
 mod urdf;
 
+use super::appearance::{Appearance, Part};
 use super::document::quoted;
 use super::files::Files;
 use super::item::{Item, hint};
+use super::robot_file::RobotFile;
 use super::{ConfigError, Place};
 use crate::dynamics::{Inertia, Placement};
 use crate::problem::{Problem, Shape};
@@ -20,15 +23,6 @@ use description::Description;
 pub(super) use outline::{Outline, OutlineJoint};
 use repair::Repair;
 use std::path::Path;
-
-/// The file a robot was read from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RobotFile {
-    /// Path, as found from the problem file.
-    pub path: String,
-    /// Its text.
-    pub text: String,
-}
 
 /// A robot that has been read and can still be loaded with a spacecraft.
 pub(super) struct Robot {
@@ -88,6 +82,27 @@ impl Robot {
     /// Mass properties of the spacecraft that is attached, in the frame of the root link.
     pub(super) fn spacecraft(&self) -> Option<&Inertia> {
         self.spacecraft.as_ref()
+    }
+
+    /// What the bodies look like.
+    pub(super) fn appearance(&self) -> Appearance {
+        let looks = self.description.looks.iter();
+        let parts = looks.filter_map(|(link, looks)| {
+            // Links above a base that floats are left out.
+            let (joint, frame) = self.description.body(link)?;
+            let part = move |look: &look::Look| Part {
+                link: link.clone(),
+                joint,
+                placement: frame.then(&look.placement),
+                form: look.form.clone(),
+                is_collision: look.is_collision,
+            };
+            Some(looks.iter().map(part))
+        });
+        Appearance {
+            parts: parts.flatten().collect(),
+            has_spacecraft: self.spacecraft.is_some(),
+        }
     }
 
     /// Name of the body at whose frame the end effector is, with an offset where there is one.

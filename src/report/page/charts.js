@@ -6,15 +6,24 @@ function makeCharts(section, numbers, clock) {
     made.append(...children);
     return made;
   };
+  const span = makeSpan(clock);
   const charts = [...section.querySelectorAll(".chart")].map((holder, k) => makeChart(holder, numbers.charts[k]));
+  const options = element("div", { className: "controls options" });
+  section.querySelector("h2").after(options);
   if (section.querySelector("[data-divisions]")) {
     const box = element("input", { type: "checkbox", onchange: () => section.classList.toggle("divided", box.checked) });
-    section.querySelector("h2").after(element("label", { className: "option" }, box, " mesh lines"));
+    options.append(element("label", {}, box, " mesh lines"));
+  }
+  if (section.querySelector("[data-over-time]")) {
+    options.append(spanControls(span, clock));
+    const hint = "Click to move the playback. Shift and drag to see a part of the time, in all charts; so do ctrl and the wheel. A double click shows the whole.";
+    options.after(element("p", { className: "hint options", textContent: hint }));
   }
 
   function makeChart(holder, data) {
     const svg = holder.querySelector("svg");
-    const [left, top, width, height, from, to] = holder.dataset.frame.split(" ").map(Number);
+    const frame = holder.dataset.frame.split(" ").map(Number);
+    const [left, top, width, height] = frame;
     const isOverTime = "overTime" in holder.dataset;
     const hidden = new Set();
     const original = svg.cloneNode(false);
@@ -43,10 +52,13 @@ function makeCharts(section, numbers, clock) {
         button.setAttribute("aria-pressed", String(!hide));
         for (const part of svg.querySelectorAll(`[data-curve="${number}"], [data-entry="${number}"]`))
           if (hide) part.setAttribute("display", "none"); else part.removeAttribute("display");
+        span.tell();
       });
       legend.append(button);
     }
     if (entries.length) holder.before(legend);
+
+    const stretch = isOverTime ? makeStretch(svg, frame, new Set(data.curves.map((curve) => curve.entry)), hidden) : null;
 
     // Without the drawn legend the picture begins above its frame.
     const [, , wide, high] = svg.getAttribute("viewBox").split(" ").map(Number);
@@ -62,12 +74,16 @@ function makeCharts(section, numbers, clock) {
       holder.append(made);
       return made;
     };
-    const put = (made, time) => { made.style.left = `${100 * (left + (width * (time - from)) / (to - from))}%`; };
+    const partOf = (time) => left + (width * (time - span.from)) / (span.to - span.from);
+    const put = (made, time) => {
+      made.style.left = `${100 * partOf(time)}%`;
+      made.style.visibility = time < span.from || time > span.to ? "hidden" : "visible";
+    };
 
-    const save = (kind, type, text) => {
+    const save = (kind, type, contents) => {
       const button = element("button", { type: "button", textContent: kind.toUpperCase() });
       button.setAttribute("aria-label", `Download ${name} as ${kind.toUpperCase()}`);
-      button.addEventListener("click", () => download(`${slug(name)}.${kind}`, type, text()));
+      button.addEventListener("click", async () => download(`${slug(name)}.${kind}`, type, await contents()));
       return button;
     };
     const drawing = () => {
@@ -78,10 +94,11 @@ function makeCharts(section, numbers, clock) {
       return new XMLSerializer().serializeToString(copy);
     };
     caption.append(element("span", { className: "tools" },
-      save("svg", "image/svg+xml", drawing), save("csv", "text/csv", () => csv(data, numbers.x))));
+      save("svg", "image/svg+xml", drawing), save("png", "image/png", () => pixels(drawing())), save("csv", "text/csv", () => csv(data, numbers.x))));
 
     if (!isOverTime) return { now: () => {} };
-    const present = line("now"), cursor = line("cursor");
+    const present = line("now"), cursor = line("cursor"), chosen = line("chosen");
+    chosen.hidden = true;
     const readout = element("div", { className: "readout" });
     readout.setAttribute("aria-hidden", "true");
     holder.append(readout);
@@ -89,7 +106,7 @@ function makeCharts(section, numbers, clock) {
     const timeAt = (event) => {
       const box = holder.getBoundingClientRect();
       const part = ((event.clientX - box.left) / box.width - left) / width;
-      return from + Math.max(0, Math.min(1, part)) * (to - from);
+      return span.from + Math.max(0, Math.min(1, part)) * (span.to - span.from);
     };
     const show = (event) => {
       const time = timeAt(event);
@@ -101,29 +118,50 @@ function makeCharts(section, numbers, clock) {
         dot.style.background = curve.colour === "#000000" ? "var(--ink)" : curve.colour;
         return element("div", {}, dot, `${curve.name} `, element("b", { textContent: told(value, curve.y) }));
       });
-      readout.replaceChildren(element("div", { textContent: `${told(time, [to])} s` }), ...rows.filter(Boolean));
-      const part = left + (width * (time - from)) / (to - from);
+      readout.replaceChildren(element("div", { textContent: `${told(time, [clock.duration])} s` }), ...rows.filter(Boolean));
+      const part = partOf(time);
       // Beside the line, on the side where there is room.
       readout.style.left = part < 0.5 ? `${100 * part + 2}%` : "auto";
       readout.style.right = part < 0.5 ? "auto" : `${100 * (1 - part) + 2}%`;
       cursor.hidden = readout.hidden = false;
     };
     const seek = (event) => clock.seek(timeAt(event) / clock.duration);
+    let first = null;
     holder.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       holder.setPointerCapture(event.pointerId);
-      seek(event);
+      if (event.shiftKey) first = timeAt(event); else seek(event);
       show(event);
     });
     holder.addEventListener("pointermove", (event) => {
-      if (holder.hasPointerCapture(event.pointerId)) seek(event);
+      if (first !== null) {
+        const ends = [first, timeAt(event)].map(partOf).sort((a, b) => a - b);
+        chosen.style.left = `${100 * ends[0]}%`;
+        chosen.style.width = `${100 * (ends[1] - ends[0])}%`;
+        chosen.hidden = false;
+      } else if (holder.hasPointerCapture(event.pointerId)) seek(event);
       show(event);
     });
+    for (const name of ["pointerup", "pointercancel"]) holder.addEventListener(name, (event) => {
+      if (first !== null && name === "pointerup") span.show(first, timeAt(event));
+      first = null;
+      chosen.hidden = true;
+    });
+    holder.addEventListener("wheel", (event) => {
+      // Who scrolls down the page is not to be held up; a pinch on a trackpad comes with ctrlKey.
+      if (!event.ctrlKey) return;
+      event.preventDefault();
+      span.zoom(Math.exp(0.003 * event.deltaY), timeAt(event));
+    }, { passive: false });
+    holder.addEventListener("dblclick", () => span.whole());
+    span.listen(() => stretch(span.from, span.to));
     holder.addEventListener("pointerleave", () => { cursor.hidden = readout.hidden = true; });
     return { now: (time) => put(present, time) };
   }
 
-  clock.listen(() => charts.forEach((chart) => chart.now(clock.part * clock.duration)));
+  const present = () => charts.forEach((chart) => chart.now(clock.part * clock.duration));
+  clock.listen(present);
+  span.listen(present);
 }
 
 // The value of a curve at x, undefined where it has none.
@@ -144,29 +182,4 @@ function told(value, all) {
   const largest = all.reduce((most, one) => Math.max(most, Math.abs(one)), 0);
   const near = Math.abs(value) < 1e-6 * largest ? 0 : value;
   return String(Number(near.toPrecision(4))).replace("-", "−");
-}
-
-const slug = (name) => name.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "");
-
-function download(name, type, text) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type }));
-  link.download = name;
-  link.click();
-  URL.revokeObjectURL(link.href);
-}
-
-// Curves with a column of x in common stand beside it, those with another beside theirs.
-function csv(data, columns) {
-  const quoted = (text) => `"${(/^[=+\-@\t\r]/.test(text) ? `'${text}` : text).replace(/"/g, '""')}"`;
-  const table = [];
-  for (const number of new Set(data.curves.map((curve) => curve.x))) {
-    table.push([data.x_label, columns[number]]);
-    for (const curve of data.curves.filter((one) => one.x === number))
-      table.push([`${curve.name}: ${data.y_label}`, curve.y]);
-  }
-  const rows = Math.max(...table.map(([, values]) => values.length));
-  const lines = [table.map(([head]) => quoted(head)).join(",")];
-  for (let k = 0; k < rows; k += 1) lines.push(table.map(([, values]) => values[k] ?? "").join(","));
-  return `${lines.join("\r\n")}\r\n`;
 }

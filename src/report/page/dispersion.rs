@@ -89,7 +89,7 @@ impl DispersionReport<'_> {
             "", "plan", "mean", "sd", "50 %", "90 %", "95 %", "99 %", "worst", "sample",
         ];
         let table = html! {
-            table.dispersion {
+            table.numbers {
                 thead { tr { @for text in head { th scope="col" { (text) } } } }
                 @for figure in &self.figures {
                     tr { @for text in figure_row(figure) { td { (text) } } }
@@ -102,7 +102,7 @@ impl DispersionReport<'_> {
     fn perturbations(&self) -> Markup {
         let model = &self.problem.robot;
         let table = html! {
-            table.dispersion {
+            table.numbers {
                 thead { tr { @for text in ["quantity", "in the plan", "distribution"] { th scope="col" { (text) } } } }
                 @for perturbation in self.dispersion.perturbations() {
                     @let unit = perturbation.quantity.unit(model);

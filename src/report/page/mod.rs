@@ -3,17 +3,22 @@
 
 mod chart_data;
 mod charts;
+mod coarse;
 mod dispersion;
+mod drawing_words;
 mod head;
 mod marks;
+mod pareto;
 mod pose;
 mod scene;
 mod scrolling;
+mod solids;
 mod task_table;
 mod texts;
 
 use super::format::{cost, degrees, time};
 use crate::collocation::Mesh;
+use crate::config::Drawing;
 use crate::planner::{Method, Status};
 use crate::printable::printable;
 use crate::problem::Problem;
@@ -27,14 +32,19 @@ use head::head;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use scene::Scene;
 use scrolling::scrolling;
+use solids::Solids;
 use texts::Fact;
 
 /// One script; a file uses what those before it define.
 const SCRIPT: &str = concat!(
     include_str!("clock.js"),
     include_str!("camera.js"),
+    include_str!("solids.js"),
     include_str!("picture.js"),
     include_str!("playback.js"),
+    include_str!("download.js"),
+    include_str!("span.js"),
+    include_str!("stretch.js"),
     include_str!("charts.js"),
     include_str!("main.js"),
 );
@@ -45,12 +55,12 @@ const OPTIMA: usize = 12;
 const FRAMES: usize = Baselines::STEPS;
 
 /// The page of `solution`, which is `plan` for `problem`; `baselines` are its motion without
-/// planning.
+/// planning, `drawing` is what can be drawn of its robot.
 pub fn page(
     solution: &Solution,
     problem: &Problem,
-    plan: &Discretization,
-    baselines: &Baselines,
+    (plan, baselines): (&Discretization, &Baselines),
+    drawing: &Drawing,
 ) -> String {
     let status = solution.status;
     let in_joints = solution.method == Method::StraightLine.name();
@@ -66,8 +76,9 @@ pub fn page(
     let compared = straight.map(|motion| ("straight joint path", motion));
     let matpm = baselines.matpm_motion.as_ref();
     let matpm = matpm.filter(|_| solution.method != Method::Matpm.name());
+    let solids = Solids::of(drawing, problem.robot.joint_count());
     let scene = Scene::new(
-        problem,
+        (problem, &solids),
         plan,
         &planned.chain(compared).collect::<Vec<_>>(),
         &matpm
@@ -95,7 +106,7 @@ pub fn page(
                         ul { @for warning in known { li { (warning) } } }
                     }
                 }
-                (playback(&scene))
+                (playback(&scene, &solids))
                 section { h2 { "In figures" } (facts(&texts::figures(solution, problem, baselines))) }
                 section { h2 { "The problem" } (task(problem)) }
                 section {
@@ -123,7 +134,7 @@ pub fn page(
 }
 
 /// The robot in motion; drawn by the script from the scene.
-fn playback(scene: &Scene) -> Markup {
+fn playback(scene: &Scene, solids: &Solids) -> Markup {
     let Ok(json) = scene.json() else {
         return html! {};
     };
@@ -140,9 +151,8 @@ fn playback(scene: &Scene) -> Markup {
             div.controls.views role="group" aria-label="View" {}
             div.controls.ghosts role="group" aria-label="Motions to draw into the first picture" {}
             p.hint {
-                "To scale. Dashed: the base at the start. The base is drawn as the block of even "
-                "density with its mass and inertia. "
-                "Green: the goal" @if scene.has_way_points() { ", and way-points" } ". "
+                "To scale. Dashed: the base at the start. " (drawing_words::of(solids))
+                " Green: the goal" @if scene.has_way_points() { ", and way-points" } ". "
                 @if scene.keeps_apart() {
                     "Dotted: what is kept apart; other collisions are not checked. "
                 } @else {
@@ -153,6 +163,12 @@ fn playback(scene: &Scene) -> Markup {
                 "Drag, or the arrow keys, turn the view; shift and drag, or the right button, move it; "
                 "two fingers, + and −, or the wheel once the picture has been clicked, zoom; "
                 "the space bar plays."
+            }
+            @if !solids.complaints.is_empty() {
+                details.hint {
+                    summary { "What could not be drawn" }
+                    ul { @for complaint in &solids.complaints { li { (complaint) } } }
+                }
             }
             div.frames aria-hidden="true" {}
             script #scene type="application/json" { (PreEscaped(json)) }
@@ -179,9 +195,18 @@ fn facts(facts: &[Fact]) -> Markup {
 
 fn chart(panel: &Panel) -> Markup {
     let frame = panel.figure.frames().first().map(|frame| {
-        let [low, high] = frame.x;
-        let of = [frame.left, frame.top, frame.width, frame.height, low, high];
-        of.map(|value| format!("{value:.5}")).join(" ")
+        let ([from, to], [low, high]) = (frame.x, frame.y);
+        let of = [
+            frame.left,
+            frame.top,
+            frame.width,
+            frame.height,
+            from,
+            to,
+            low,
+            high,
+        ];
+        of.map(|value| format!("{value:.7e}")).join(" ")
     });
     let svg = panel.figure.svg_with_groups();
     html! {
@@ -192,15 +217,22 @@ fn chart(panel: &Panel) -> Markup {
     }
 }
 
-/// The charts, and the numbers behind them for the script.
+/// The charts.
 fn charts_over_time(panels: &[Panel]) -> Markup {
     html! {
         section #charts {
             h2 { "Over time" }
-            div.charts { @for panel in panels { (chart(panel)) } }
-            @if let Ok(json) = ChartData::of(panels).json() {
-                script #numbers type="application/json" { (PreEscaped(json)) }
-            }
+            (with_numbers(panels))
+        }
+    }
+}
+
+/// Charts with the numbers behind them.
+fn with_numbers(panels: &[Panel]) -> Markup {
+    html! {
+        div.charts { @for panel in panels { (chart(panel)) } }
+        @if let Ok(json) = ChartData::of(panels).json() {
+            script #numbers type="application/json" { (PreEscaped(json)) }
         }
     }
 }

@@ -1,11 +1,11 @@
 // One picture of a motion at one moment, drawn on a canvas.
 
 const ON_WHITE = {
-  base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", joint: "#e69f00", path: "#d55e00", start: "#8a949e",
+  paper: "#ffffff", base: "#56b4e9", edge: "#1b1f24", link: "#0072b2", outline: "#003f8f", joint: "#e69f00", path: "#d55e00", start: "#8a949e",
   apart: "#cc79a7", mark: "#00704f", ghosts: ["#7a5195", "#8c6d1f"],
 };
 const ON_BLACK = {
-  ...ON_WHITE, edge: "#d6dce2", link: "#4ba6e0", path: "#ff8a3c", start: "#78828c", mark: "#3fcf9f",
+  ...ON_WHITE, paper: "#14181d", edge: "#d6dce2", link: "#4ba6e0", outline: "#1d4f70", path: "#ff8a3c", start: "#78828c", mark: "#3fcf9f",
   ghosts: ["#c4a0dd", "#d9bd66"],
 };
 
@@ -21,6 +21,11 @@ function extentOf(scene) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   const frames = [...scene.motions, ...scene.ghosts].flatMap((motion) => motion.frames);
   frames.push(...scene.marks.map((mark) => mark.at).filter(Boolean));
+  const boxes = scene.solids.map((solid) => [solid.body, cornersOf(solid)]);
+  if (boxes.length) for (const motion of scene.motions) motion.poses.forEach((_, k) => {
+    const poses = posesAt(motion, k);
+    frames.push(...boxes.map(([body, corners]) => poses[body](corners)));
+  });
   for (const frame of frames) frame.forEach((value, i) => {
     low[i % 3] = Math.min(low[i % 3], value);
     high[i % 3] = Math.max(high[i % 3], value);
@@ -43,7 +48,7 @@ function makePainter(scene, camera) {
     pen.clearRect(0, 0, width, height);
     pen.lineCap = pen.lineJoin = "round";
     const room = Math.min(width, height);
-    const scale = 0.88 * camera.zoom * Math.min(width / size[0], height / size[1]);
+    const scale = 0.94 * camera.zoom * Math.min(width / size[0], height / size[1]);
     const centre = camera.seen(middle, 0);
     const place = (points) => Array.from({ length: points.length / 3 }, (_, k) => {
       const [x, y, depth] = camera.seen(points, k);
@@ -79,15 +84,53 @@ function makePainter(scene, camera) {
       stroke([...path, frame[tip]], colours.path, 1);
     }
     for (const [a, b] of scene.box_edges) stroke([start[a], start[b]], colours.start, 1, [4, 4]);
-    // The second is dashed: they may lie upon each other.
-    for (const { one, number } of ghosts)
-      skeleton(one, part, colours.ghosts[number % colours.ghosts.length], number % 2 ? [6, 6] : []);
     if (marks) for (const mark of scene.marks) {
       pen.globalAlpha = 0.55;
       if (mark.of_joints) skeleton(motion, mark.part, colours.mark, [1, 4]);
       pen.globalAlpha = 1;
     }
 
+    // The far before the near.
+    const depth = (points) => points.reduce((sum, k) => sum + frame[k][2], 0) / points.length;
+    const items = (scene.has_block ? faces : []).map((face) => ({ depth: depth(face), paint: () => {
+      trace(face.map((k) => frame[k]));
+      pen.closePath();
+      pen.globalAlpha = 0.55;
+      pen.fillStyle = colours.base;
+      pen.fill();
+      pen.globalAlpha = 1;
+      stroke([...face, face[0]].map((k) => frame[k]), colours.edge, 1);
+    } }));
+    items.push(...facesOf(scene, motion, part * (motion.frames.length - 1), place, scale, pen, colours));
+    // Seen along any line a capsule is a line with round ends.
+    const capsule = Math.max(5, 2 * scale * scene.radius);
+    scene.links.forEach((link, number) => {
+      const ends = link.map((k) => frame[k]);
+      if (scene.bare[number]) items.push({ depth: depth(link), paint: () => {
+        stroke(ends, colours.outline, capsule + 1.5);
+        stroke(ends, colours.link, capsule);
+      } });
+      else if (link[0] === corners && scene.has_block) items.push({ depth: depth(link), paint: () => stroke(ends, colours.edge, 1.5) });
+    });
+    // A joint is seen upon the capsules that meet there; in the plane whatever lies upon it.
+    const jointDepth = (k) => (scene.planar ? Infinity : Math.max(frame[k][2], ...scene.links
+      .filter((link, number) => scene.bare[number] && link.includes(k)).map(depth)) + 1e-6 * size[0]);
+    for (const k of scene.joints) items.push({ depth: jointDepth(k), paint: () => {
+      pen.beginPath();
+      pen.arc(frame[k][0], frame[k][1], 4.5, 0, 2 * Math.PI);
+      pen.fillStyle = colours.joint;
+      pen.fill();
+      pen.lineWidth = 1;
+      pen.strokeStyle = colours.edge;
+      pen.stroke();
+    } });
+    if (!scene.planar || scene.solids.length) items.sort((a, b) => (a.depth === b.depth ? 0 : a.depth - b.depth));
+    items.forEach((item) => item.paint());
+
+    // Upon the robot, which would hide them.
+    // The second is dashed: they may lie upon each other.
+    for (const { one, number } of ghosts)
+      skeleton(one, part, colours.ghosts[number % colours.ghosts.length], number % 2 ? [6, 6] : []);
     for (const [a, b] of scene.boxes) stroke([frame[a], frame[b]], colours.apart, 1, [2, 3]);
     for (const [[a, b], radius] of scene.swept_spheres) {
       const [[ax, ay], [bx, by]] = [frame[a], frame[b]];
@@ -102,34 +145,6 @@ function makePainter(scene, camera) {
       pen.stroke();
       pen.setLineDash([]);
     }
-
-    // The far before the near.
-    const depth = (points) => points.reduce((sum, k) => sum + frame[k][2], 0) / points.length;
-    const items = faces.map((face) => ({ depth: depth(face), paint: () => {
-      trace(face.map((k) => frame[k]));
-      pen.closePath();
-      pen.globalAlpha = 0.55;
-      pen.fillStyle = colours.base;
-      pen.fill();
-      pen.globalAlpha = 1;
-      stroke([...face, face[0]].map((k) => frame[k]), colours.edge, 1);
-    } }));
-    for (const link of scene.links) {
-      const fromBase = link[0] === corners;
-      const [colour, thick] = fromBase ? [colours.edge, 1.5] : [colours.link, 5];
-      items.push({ depth: depth(link), paint: () => stroke(link.map((k) => frame[k]), colour, thick) });
-    }
-    for (const k of scene.joints) items.push({ depth: frame[k][2] + 1e-6 * size[0], paint: () => {
-      pen.beginPath();
-      pen.arc(frame[k][0], frame[k][1], 4.5, 0, 2 * Math.PI);
-      pen.fillStyle = colours.joint;
-      pen.fill();
-      pen.lineWidth = 1;
-      pen.strokeStyle = colours.edge;
-      pen.stroke();
-    } });
-    if (!scene.planar) items.sort((a, b) => a.depth - b.depth);
-    items.forEach((item) => item.paint());
 
     if (marks) for (const mark of scene.marks) {
       const then = frameOf(motion, mark.part);
@@ -149,6 +164,10 @@ function makePainter(scene, camera) {
       pen.stroke();
       pen.fillStyle = colours.mark;
       pen.font = "12px system-ui, sans-serif";
+      // Read upon the robot as well.
+      pen.lineWidth = 3;
+      pen.strokeStyle = colours.paper;
+      pen.strokeText(mark.label, at[0] + 10, at[1] - 9);
       pen.fillText(mark.label, at[0] + 10, at[1] - 9);
     }
   };

@@ -2,12 +2,13 @@
 
 use super::marks::{Mark, marks};
 use super::pose::{base_pose, from_picture};
+use super::solids::{Faceted, Solids};
 use crate::dynamics::{Body, Model};
 use crate::problem::{KeepOut, Problem, Solid};
 use crate::system::{Trajectory, base_angles};
 use crate::transcription::Discretization;
 use crate::verify::bodies::{BaseMotion, Bodies};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use serde::Serialize;
 
 /// Part of the picture's size to which points are rounded.
@@ -24,6 +25,13 @@ pub(super) struct Scene {
     box_edges: Vec<[usize; 2]>,
     /// Links between points of a frame.
     links: Vec<[usize; 2]>,
+    /// Whether each of the links is drawn as a capsule: it has no solids.
+    bare: Vec<bool>,
+    /// Radius of these capsules, m.
+    radius: f64,
+    /// Whether the base's block is filled; else it only says where the base's solids reach.
+    has_block: bool,
+    solids: Vec<Faceted>,
     /// Points of a frame that are joints.
     joints: Vec<usize>,
     /// Points of a frame at the ends of arms.
@@ -47,6 +55,8 @@ struct Playback {
     title: String,
     /// Points of every frame, three coordinates each, m.
     frames: Vec<Vec<f64>>,
+    /// Poses of the bodies that have solids in every frame: position in m, quaternion x, y, z, w.
+    poses: Vec<Vec<f64>>,
     /// The base angle, deg; signed in the plane.
     turned: Vec<f64>,
     /// Distance of the base from its start, cm.
@@ -57,13 +67,13 @@ impl Scene {
     /// A scene with these motions of `problem`'s robot, at even times, under their titles; `ghosts`
     /// are others at any times, and `plan` has the goals.
     pub fn new(
-        problem: &Problem,
+        (problem, solids): (&Problem, &Solids),
         plan: &Discretization,
         motions: &[(&str, &Trajectory)],
         ghosts: &[(&str, &Trajectory)],
     ) -> Self {
         let robot = &problem.robot;
-        let skeleton = Skeleton::new(robot, &problem.limits.keep_out);
+        let skeleton = Skeleton::new((robot, solids), &problem.limits.keep_out);
         let duration = motions.iter().filter_map(|(_, rows)| rows.t.last()).next();
         let duration = duration.copied().unwrap_or(0.0);
         let mut motions: Vec<Playback> = motions
@@ -90,6 +100,10 @@ impl Scene {
             planar: robot.plane().is_some(),
             box_edges: edges(skeleton.corners.len()),
             links: skeleton.links.clone(),
+            bare: skeleton.bare.clone(),
+            radius: rounded(skeleton.radius()),
+            has_block: solids.has_block(),
+            solids: solids.all.clone(),
             joints: (0..robot.joint_count())
                 .map(|j| skeleton.joint(j))
                 .collect(),
@@ -144,6 +158,8 @@ impl Playback {
             pair.map(|(a, b)| mix(*a, *b, part)).collect()
         };
         self.frames = (0..=steps).map(|k| frame(at(k))).collect();
+        // Drawn as lines alone.
+        self.poses.clear();
         self
     }
 }
@@ -157,6 +173,9 @@ struct Skeleton<'a> {
     /// In base axes, m.
     corners: Vec<Vector3<f64>>,
     links: Vec<[usize; 2]>,
+    bare: Vec<bool>,
+    /// Bodies whose poses are wanted: the base, then those of the joints.
+    posed: &'a [usize],
     tips: Vec<usize>,
     swept_spheres: Vec<([usize; 2], f64)>,
     boxes: Vec<[usize; 2]>,
@@ -167,9 +186,15 @@ struct Skeleton<'a> {
 type Attached = (Option<usize>, Vector3<f64>);
 
 impl<'a> Skeleton<'a> {
-    fn new(robot: &'a Model, apart: &[KeepOut]) -> Self {
+    fn new((robot, solids): (&'a Model, &'a Solids), apart: &[KeepOut]) -> Self {
         let to_picture = from_picture(robot).transpose();
-        let mut corners = block(robot.base());
+        let mut corners = match solids.base_bounds() {
+            Some([low, high]) => {
+                let half = (0.5 * (high - low)).into();
+                cuboid(0.5 * (low + high), &Matrix3::identity(), half)
+            }
+            None => block(robot.base()),
+        };
         if robot.plane().is_some() {
             corners = outline(&corners, &to_picture);
         }
@@ -178,6 +203,8 @@ impl<'a> Skeleton<'a> {
             to_picture,
             corners,
             links: Vec::new(),
+            bare: Vec::new(),
+            posed: &solids.bodies,
             tips: Vec::new(),
             swept_spheres: Vec::new(),
             boxes: Vec::new(),
@@ -187,10 +214,13 @@ impl<'a> Skeleton<'a> {
         for (j, joint) in robot.joints().iter().enumerate() {
             let from = joint.parent.map_or(origin, |parent| found.joint(parent));
             found.links.push([from, found.joint(j)]);
+            let is_bare = |parent: usize| !solids.bodies.contains(&(parent + 1));
+            found.bare.push(joint.parent.is_some_and(is_bare));
         }
         for (joint, end) in ends(robot) {
             let tip = found.attach((Some(joint), end));
             found.links.push([found.joint(joint), tip]);
+            found.bare.push(!solids.bodies.contains(&(joint + 1)));
             found.tips.push(tip);
         }
         for pair in apart {
@@ -233,6 +263,18 @@ impl<'a> Skeleton<'a> {
             .extend(edges.map(|[a, b]| [first + a, first + b]));
     }
 
+    /// Radius of capsules: slim beside the links, whose widths are not known, m.
+    fn radius(&self) -> f64 {
+        let joints = self.robot.joints();
+        let lengths = joints.iter().filter(|joint| joint.parent.is_some());
+        let lengths: Vec<f64> = lengths
+            .map(|joint| joint.placement.translation.norm())
+            .filter(|length| *length > 0.0)
+            .collect();
+        let sum: f64 = lengths.iter().sum();
+        0.06 * sum / lengths.len().max(1) as f64
+    }
+
     /// Number of the point at joint `j`.
     fn joint(&self, j: usize) -> usize {
         self.corners.len() + 1 + j
@@ -244,6 +286,7 @@ impl<'a> Skeleton<'a> {
         let mut motion = Playback {
             title: title.into(),
             frames: Vec::with_capacity(rows.t.len()),
+            poses: Vec::with_capacity(rows.t.len()),
             turned: Vec::with_capacity(rows.t.len()),
             shifted: Vec::with_capacity(rows.t.len()),
         };
@@ -252,6 +295,10 @@ impl<'a> Skeleton<'a> {
             let q = &rows.joint_position[k];
             bodies.update(self.robot, &base, q, &vec![0.0; q.len()]);
             motion.frames.push(self.points(&base, &bodies));
+            if !self.posed.is_empty() {
+                let pose = self.poses(&bodies, motion.poses.last());
+                motion.poses.push(pose);
+            }
             let turn = match self.robot.plane() {
                 Some(_) => rows.base_attitude[k][0],
                 None => angle,
@@ -261,6 +308,25 @@ impl<'a> Skeleton<'a> {
             motion.shifted.push(rounded(100.0 * shift));
         }
         motion
+    }
+
+    /// Poses of the bodies that have solids; each quaternion is the one of two that is nearer to that in
+    /// the frame `before`.
+    fn poses(&self, bodies: &Bodies, before: Option<&Vec<f64>>) -> Vec<f64> {
+        let mut poses = Vec::with_capacity(7 * self.posed.len());
+        for (k, &body) in self.posed.iter().enumerate() {
+            let body = &bodies.motions()[body];
+            let rotation = Rotation3::from_matrix_unchecked(self.to_picture * body.rotation);
+            let turn = UnitQuaternion::from_rotation_matrix(&rotation);
+            let turn = <[f64; 4]>::from(turn.coords);
+            let last = before.map(|pose| &pose[7 * k + 3..7 * k + 7]);
+            let along = last.map_or(1.0, |last| last.iter().zip(turn).map(|(a, b)| a * b).sum());
+            let sign = if along < 0.0 { -1.0 } else { 1.0 };
+            let origin = <[f64; 3]>::from(self.to_picture * body.origin);
+            poses.extend(origin.map(rounded));
+            poses.extend(turn.map(|value| rounded(sign * value)));
+        }
+        poses
     }
 
     fn points(&self, base: &BaseMotion, bodies: &Bodies) -> Vec<f64> {

@@ -1,10 +1,11 @@
-//! `<link>`: a name, its `<inertial>` and what it fills; what it looks like is not read.
+//! `<link>`: a name, its `<inertial>`, what it fills and what it looks like.
 
 use super::element::{Attribute, Element};
-use super::{collision, origin};
+use super::{collision, origin, visual};
 use crate::config::faults::Faults;
 use crate::config::figures::{Figures, Unusable, last_digit};
 use crate::config::robot::bodies::Bodies;
+use crate::config::robot::look::Look;
 use crate::config::{ConfigError, Place};
 use crate::dynamics::Inertia;
 use crate::problem::Shape;
@@ -20,6 +21,8 @@ pub(super) struct Link {
     pub has_inertial: bool,
     /// What it fills, part by part; an error where a part is none of the shapes that are read.
     pub collisions: Vec<Result<Shape, ConfigError>>,
+    /// What is drawn of it.
+    pub looks: Vec<Look>,
 }
 
 impl Link {
@@ -52,6 +55,7 @@ pub(super) fn read(
         inertia,
         has_inertial,
         collisions: parts.iter().map(collision::read).collect(),
+        looks: visual::read(element),
     })
 }
 

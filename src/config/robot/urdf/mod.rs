@@ -6,6 +6,7 @@ mod element;
 mod joint;
 mod link;
 mod tree;
+mod visual;
 mod xml;
 
 use super::bodies::Bodies;
@@ -136,6 +137,10 @@ fn assemble(
     let collisions: Vec<_> = collisions
         .map(|link| (link.name.clone(), link.collisions.clone()))
         .collect();
+    let looks = links.iter().filter(|link| !link.looks.is_empty());
+    let looks: Vec<_> = looks
+        .map(|link| (link.name.clone(), link.looks.clone()))
+        .collect();
     let root_is_frame = links[tree.root].is_frame();
     let changed: Vec<_> = links
         .iter()
@@ -151,6 +156,7 @@ fn assemble(
     let mut take = |link: usize| bodies[link].take().expect("every link is reached once");
     let mut robot = Description::new(name, take(tree.root));
     robot.collisions = collisions;
+    robot.looks = looks;
     robot.root_is_frame = root_is_frame;
     // Where each link's frame is: the joint whose body carries it, and its pose there.
     let mut frames = vec![(None, Placement::identity()); tree.children.len()];
