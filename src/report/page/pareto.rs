@@ -33,8 +33,8 @@ impl ParetoReport<'_> {
                         (with_numbers(&panels))
                         p.hint {
                             "B and E are the terms of the problem's cost about the base and about the "
-                            "joints; every plan minimises factor · B + E. A factor of 1 is the problem "
-                            "itself."
+                            "joints; every plan minimises factor · B + E, or E under a bound on B where "
+                            "no factor leads. A factor of 1 is the problem itself."
                         }
                     }
                     section { h2 { "Point by point" } (self.table()) }
