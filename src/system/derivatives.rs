@@ -33,12 +33,14 @@ pub(super) fn of<Sp: Space>(system: &FreeFloating<Sp>) -> Box<dyn PointDerivativ
 struct NodeDerivatives<'a, Sp: Space, const N: usize, const FUSED: bool> {
     system: &'a FreeFloating<Sp>,
     motion: Sensitivity<Sp, N, FUSED>,
-    /// Input behind each direction of `motion`.
-    inputs: Vec<usize>,
     /// Rates of the base that limits and costs are about, then θ̇.
     rates: Vec<f64>,
     /// Derivatives of ω₀ by η, one parameter after the other, where the system tumbles.
     tumbled: Vec<f64>,
+    /// Derivatives of ω₀ by the states, by rows as wide as those.
+    omega_by: Vec<f64>,
+    /// Whether η̇ and the rates are ω₀ itself, as in the plane.
+    straight: bool,
     /// What η and ω₀ alone determine: η̇, the base's rates, φ² where needed; with its derivatives
     /// by both.
     base_first: Vec<Dual<BASE>>,
@@ -80,11 +82,13 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         let outputs = parameters + Sp::ANGLES + usize::from(system.needs.rotation);
         Self {
             motion: Sensitivity::new(&plant.tree, others),
-            inputs: (parameters..states).chain(0..others).collect(),
             rates: vec![0.0; Sp::ANGLES + n],
             tumbled: vec![0.0; others * Sp::ANGLES],
+            omega_by: vec![0.0; Sp::ANGLES * states],
+            straight: Sp::ANGLES == 1 && !system.needs.rotation,
             base_first: vec![Dual::constant(0.0); outputs],
-            base_second: vec![HyperDual::constant(0.0); outputs],
+            // Where they are ω₀ itself, they stay as they are here.
+            base_second: vec![HyperDual::seeded(0.0, None, Some(parameters)); outputs],
             base_by: vec![0.0; outputs * states],
             base_weights: vec![0.0; outputs],
             torque: vec![0.0; n],
@@ -128,6 +132,11 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             }
         }
         self.motion.first(&self.tumbled);
+        let states = plant.states();
+        for (i, row) in self.omega_by.chunks_exact_mut(states).enumerate() {
+            let (by_eta, by_joints) = row.split_at_mut(plant.parameters());
+            self.motion.base_rate_by(i, by_joints, by_eta);
+        }
         if system.needs.torque {
             let data = self.motion.data();
             torques(&data.mass_matrix, point.u, &mut self.torque);
@@ -142,13 +151,66 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         let to = &mut self.base_by[row * states..(row + 1) * states];
         to[..parameters].copy_from_slice(&by[..parameters]);
         to[parameters..].fill(0.0);
-        for (direction, &input) in self.inputs.iter().enumerate() {
-            for (i, by) in by[parameters..parameters + Sp::ANGLES].iter().enumerate() {
-                to[input] += by * self.motion.base_rate_by(i, direction);
+        for (omega_by, by) in self.omega_by.chunks_exact(states).zip(&by[parameters..]) {
+            for (to, omega_by) in to.iter_mut().zip(omega_by) {
+                *to += by * omega_by;
             }
         }
         if let Some(rate) = row.checked_sub(parameters).filter(|&i| i < Sp::ANGLES) {
             self.rates[rate] = value;
+        }
+    }
+
+    /// `base_by` and the rates where both are ω₀ itself.
+    fn copy_base(&mut self) {
+        for row in self.base_by.chunks_exact_mut(self.omega_by.len()) {
+            row.copy_from_slice(&self.omega_by);
+        }
+        let omega = self.motion.data().base_rate;
+        self.rates[..Sp::ANGLES].copy_from_slice(omega.components());
+    }
+
+    /// What the base's outputs and their first derivatives are.
+    fn base_slopes(&mut self, eta: &[f64]) {
+        if self.straight {
+            return self.copy_base();
+        }
+        let omega = self.motion.data().base_rate;
+        let parameters = eta.len();
+        let eta: [Dual<BASE>; PARAMETERS] = seeded(eta, Dual::seeded);
+        let spin: [Dual<BASE>; 3] = seeded(omega.components(), |value, i| {
+            Dual::seeded(value, parameters + i)
+        });
+        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
+        base_outputs(self.system, &eta[..parameters], &spin, &mut self.base_first);
+        for row in 0..self.base_first.len() {
+            let output = self.base_first[row];
+            self.spread_base(row, output.value, &output.gradient);
+        }
+    }
+
+    /// The same with second derivatives.
+    fn base_bends(&mut self, eta: &[f64]) {
+        if self.straight {
+            return self.copy_base();
+        }
+        let omega = self.motion.data().base_rate;
+        let parameters = eta.len();
+        let eta: [HyperDual<PARAMETERS, BASE>; PARAMETERS] =
+            seeded(eta, |value, i| HyperDual::seeded(value, Some(i), Some(i)));
+        let spin: [HyperDual<PARAMETERS, BASE>; 3] = seeded(omega.components(), |value, i| {
+            HyperDual::seeded(value, None, Some(parameters + i))
+        });
+        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
+        base_outputs(
+            self.system,
+            &eta[..parameters],
+            &spin,
+            &mut self.base_second,
+        );
+        for row in 0..self.base_second.len() {
+            let (value, by) = (self.base_second[row].value, self.base_second[row].columns);
+            self.spread_base(row, value, &by);
         }
     }
 
@@ -226,22 +288,22 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
                 hessian.add(row, column, *second);
             }
             let by_rate = &bent[parameters..parameters + Sp::ANGLES];
-            for (direction, &input) in self.inputs.iter().enumerate() {
-                let mut second = 0.0;
-                for (i, by) in by_rate.iter().enumerate() {
-                    second += by * self.motion.base_rate_by(i, direction);
+            for (by, omega_by) in by_rate
+                .iter()
+                .zip(self.omega_by.chunks_exact(self.states()))
+            {
+                for (input, omega_by) in omega_by.iter().enumerate() {
+                    hessian.add_pair(row, input, by * omega_by);
                 }
-                hessian.add_pair(row, input, second);
             }
         }
     }
 
     /// Adds what bends in the weighted sum of the torques.
-    fn add_torques(&mut self, u: &[f64], hessian: &mut Lower<'_>) {
+    fn add_torques(&mut self, hessian: &mut Lower<'_>) {
         let n = self.system.joint_count();
         let (first, controls) = (self.parameters(), self.states());
         self.motion.torque_curvature(
-            u,
             &self.torque_weights,
             &mut self.torque_weighted_by,
             &mut self.torque_second,
@@ -274,17 +336,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
         let system = self.system;
         let n = system.joint_count();
         let (parameters, states) = (self.parameters(), self.states());
-        let omega = self.motion.data().base_rate;
-        let eta: [Dual<BASE>; PARAMETERS] = seeded(&point.x[..parameters], Dual::seeded);
-        let spin: [Dual<BASE>; 3] = seeded(omega.components(), |value, i| {
-            Dual::seeded(value, parameters + i)
-        });
-        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
-        base_outputs(system, &eta[..parameters], &spin, &mut self.base_first);
-        for row in 0..self.base_first.len() {
-            let output = self.base_first[row];
-            self.spread_base(row, output.value, &output.gradient);
-        }
+        self.base_slopes(&point.x[..parameters]);
 
         jacobian.fill(0.0);
         let at = self.linearization(point);
@@ -302,9 +354,8 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
             row[at.rate(j)] = 1.0;
         }
         for (j, row) in rows.enumerate() {
-            for (direction, &input) in self.inputs.iter().enumerate() {
-                row[input] = self.motion.acceleration_by(j, direction);
-            }
+            let (by_eta, by_joints) = row[..states].split_at_mut(parameters);
+            self.motion.acceleration_by(j, by_joints, by_eta);
             row[at.control(j)] = 1.0;
         }
         let mut rest = rest;
@@ -323,20 +374,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
         let system = self.system;
         let n = system.joint_count();
         let (parameters, states) = (self.parameters(), self.states());
-        let omega = self.motion.data().base_rate;
-        let eta: [HyperDual<PARAMETERS, BASE>; PARAMETERS] =
-            seeded(&point.x[..parameters], |value, i| {
-                HyperDual::seeded(value, Some(i), Some(i))
-            });
-        let spin: [HyperDual<PARAMETERS, BASE>; 3] = seeded(omega.components(), |value, i| {
-            HyperDual::seeded(value, None, Some(parameters + i))
-        });
-        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
-        base_outputs(system, &eta[..parameters], &spin, &mut self.base_second);
-        for row in 0..self.base_second.len() {
-            let (value, by) = (self.base_second[row].value, self.base_second[row].columns);
-            self.spread_base(row, value, &by);
-        }
+        self.base_bends(&point.x[..parameters]);
         self.weigh(point, weights);
         let mut by_omega = [0.0; 3];
         for (output, weight) in self.base_second.iter().zip(&self.base_weights) {
@@ -350,14 +388,24 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
         hessian.fill(0.0);
         let width = states + n + point.parameters.len() + 1;
         let mut hessian = Lower::new(hessian, width);
-        for (row, &i) in self.inputs.iter().enumerate() {
-            for (column, &j) in self.inputs[..=row].iter().enumerate() {
-                hessian.add(i.max(j), i.min(j), self.motion.second_by(row, column));
+        for row in 0..2 * n {
+            let by_joints = &mut hessian.row(parameters + row)[parameters..];
+            by_joints.copy_from_slice(self.motion.second_by(row));
+        }
+        for i in 0..self.tumbled.len() / Sp::ANGLES {
+            let (by_joints, by_eta) = self.motion.second_by(2 * n + i).split_at(2 * n);
+            for (j, second) in by_joints.iter().enumerate() {
+                hessian.add(parameters + j, i, *second);
+            }
+            for (j, second) in by_eta.iter().enumerate() {
+                hessian.add(i, j, *second);
             }
         }
-        self.add_attitude(&point.x[..parameters], &mut hessian);
+        if !self.straight {
+            self.add_attitude(&point.x[..parameters], &mut hessian);
+        }
         if system.needs.torque {
-            self.add_torques(point.u, &mut hessian);
+            self.add_torques(&mut hessian);
         }
         let at = self.linearization(point);
         let (rows, cost) = weights[states..].split_at(weights.len() - states - 1);
