@@ -32,6 +32,11 @@ pub(super) fn of<Sp: Space>(system: &FreeFloating<Sp>) -> Box<dyn PointDerivativ
 
 struct NodeDerivatives<'a, Sp: Space, const N: usize, const FUSED: bool> {
     system: &'a FreeFloating<Sp>,
+    /// States and controls that first derivatives are those of, once they are loaded.
+    inputs: Vec<f64>,
+    is_loaded: bool,
+    /// How many numbers that takes to keep.
+    kept: usize,
     motion: Sensitivity<Sp, N, FUSED>,
     /// Rates of the base that limits and costs are about, then θ̇.
     rates: Vec<f64>,
@@ -80,7 +85,10 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         let tumbles = plant.drift.angular().is_some();
         let others = if tumbles { parameters } else { 0 };
         let outputs = parameters + Sp::ANGLES + usize::from(system.needs.rotation);
-        Self {
+        let mut derivatives = Self {
+            inputs: vec![0.0; states + n],
+            is_loaded: false,
+            kept: 0,
             motion: Sensitivity::new(&plant.tree, others),
             rates: vec![0.0; Sp::ANGLES + n],
             tumbled: vec![0.0; others * Sp::ANGLES],
@@ -97,7 +105,26 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             torque_weighted_by: vec![0.0; n * n],
             torque_second: vec![0.0; n * n],
             system,
+        };
+        // In the plane it takes less time to load a point again than to copy.
+        if Sp::ANGLES > 1 {
+            let mut kept = 1;
+            derivatives.visit(|part| kept += part.len());
+            derivatives.kept = kept;
         }
+        derivatives
+    }
+
+    /// Hands all that belongs to [`Self::load`] to `visit`, piece by piece.
+    fn visit(&mut self, mut visit: impl FnMut(&mut [f64])) {
+        visit(&mut self.inputs);
+        visit(&mut self.omega_by);
+        visit(&mut self.rates[Sp::ANGLES..]);
+        if self.system.needs.torque {
+            visit(&mut self.torque);
+            visit(&mut self.torque_by);
+        }
+        self.motion.visit(&mut visit);
     }
 
     fn parameters(&self) -> usize {
@@ -109,8 +136,17 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         self.system.plant.states()
     }
 
-    /// Free motion with its first derivatives, torques with theirs.
+    /// Free motion with its first derivatives, torques with theirs; nothing is to be done where
+    /// they are those already.
     fn load(&mut self, point: &Point<'_, f64>) {
+        let inputs = point.x.iter().chain(point.u);
+        if self.is_loaded && same(self.inputs.iter(), inputs.clone()) {
+            return;
+        }
+        for (to, &from) in self.inputs.iter_mut().zip(inputs) {
+            *to = from;
+        }
+        self.is_loaded = true;
         let system = self.system;
         let plant = &system.plant;
         let (eta, joints) = point.x.split_at(plant.parameters());
@@ -319,6 +355,11 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
     }
 }
 
+/// Whether numbers are the same to the bit.
+fn same<'n>(a: impl Iterator<Item = &'n f64>, b: impl Iterator<Item = &'n f64>) -> bool {
+    a.zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
 /// `values` with a direction each, and zeros.
 fn seeded<S: Scalar, const P: usize>(values: &[f64], seed: impl Fn(f64, usize) -> S) -> [S; P] {
     let mut seeded = [S::zero(); P];
@@ -331,6 +372,34 @@ fn seeded<S: Scalar, const P: usize>(values: &[f64], seed: impl Fn(f64, usize) -
 impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
     for NodeDerivatives<'_, Sp, N, FUSED>
 {
+    fn kept(&self) -> usize {
+        self.kept
+    }
+
+    fn keep(&mut self, kept: &mut [f64]) {
+        let Some((flag, mut rest)) = kept.split_first_mut() else {
+            return;
+        };
+        *flag = f64::from(u8::from(self.is_loaded));
+        self.visit(|part| {
+            let (to, others) = std::mem::take(&mut rest).split_at_mut(part.len());
+            to.copy_from_slice(part);
+            rest = others;
+        });
+    }
+
+    fn recall(&mut self, kept: &[f64]) {
+        let Some((_, mut rest)) = kept.split_first().filter(|(flag, _)| **flag != 0.0) else {
+            return;
+        };
+        self.is_loaded = true;
+        self.visit(|part| {
+            let (from, others) = rest.split_at(part.len());
+            part.copy_from_slice(from);
+            rest = others;
+        });
+    }
+
     fn jacobian(&mut self, point: Point<'_, f64>, jacobian: &mut [f64]) {
         self.load(&point);
         let system = self.system;

@@ -36,6 +36,14 @@ impl<Sp: Algebra> AngularMap<Sp> {
         }
     }
 
+    /// Hands the elements to `visit`.
+    #[inline(always)]
+    pub fn visit(&mut self, visit: &mut impl FnMut(&mut [f64])) {
+        for column in self.columns.iter_mut().take(Sp::ANGLES) {
+            visit(column.components_mut());
+        }
+    }
+
     /// The image of a vector.
     #[inline(always)]
     pub fn apply<S: Scalar>(&self, vector: &Sp::Angular<S>) -> Sp::Angular<S> {

@@ -32,6 +32,13 @@ impl<Sp: Algebra> Coriolis<Sp> {
         self.momentum = self.momentum.plus(&other.momentum);
     }
 
+    /// Hands the numbers to `visit`.
+    #[inline(always)]
+    pub fn visit(&mut self, visit: &mut impl FnMut(&mut [f64])) {
+        self.moment.visit(visit);
+        visit(self.momentum.components_mut());
+    }
+
     /// The force that a change of the angular velocity adds.
     #[inline(always)]
     pub fn force<S: Scalar>(&self, angular: &Sp::Angular<S>) -> Force<Sp, S> {

@@ -61,6 +61,13 @@ impl<Sp: Algebra, S: Scalar, D: Side> SpatialVector<Sp, S, D> {
         Self::new(Sp::Angular::zero(), Sp::Linear::zero())
     }
 
+    /// Hands the components to `visit`.
+    #[inline(always)]
+    pub fn visit(&mut self, visit: &mut impl FnMut(&mut [S])) {
+        visit(self.angular.components_mut());
+        visit(self.linear.components_mut());
+    }
+
     #[inline(always)]
     pub fn add(&mut self, other: &Self) {
         self.angular = self.angular.plus(&other.angular);

@@ -23,6 +23,7 @@ mod configuration;
 mod directions;
 mod first;
 mod free_motion;
+mod kept;
 mod second;
 mod torque;
 mod workspace;
