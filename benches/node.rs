@@ -1,5 +1,8 @@
 //! Time of one collocation point: values, Jacobian and Hessian of the shipped problems.
 //!
+//! As in a solve, the Jacobian is of a point other than the last, and the Hessian takes up what the
+//! Jacobian of its point has kept.
+//!
 //! With `--point FILE`, the point and the weights are read from standard input and one line of JSON
 //! is printed, for the comparison with CasADi (`make casadi`).
 
@@ -47,20 +50,36 @@ fn measure<O: Ocp>(ocp: &O, point: impl FnOnce(usize, usize) -> (Vec<f64>, Vec<f
         parameters: &[],
         t: 0.0,
     };
+    // Two points in turn: at the same one nothing would be left to do.
+    let moved: Vec<f64> = x.iter().map(|x| x + 1e-3).collect();
+    let elsewhere = Point { x: &moved, ..at };
     let mut own = ocp.derivatives().expect("derivatives by structure");
     let mut scratch = ocp.scratch::<f64>();
     let mut values = vec![0.0; outputs];
     let mut jacobian = vec![0.0; outputs * inputs];
     let mut hessian = vec![0.0; inputs * inputs];
+    let points = [at, elsewhere];
+    let mut kept = [(); 2].map(|()| vec![0.0; own.kept()]);
+    let mut k = 0;
     let times = [
         time(|| {
             let (rates, rest) = values.split_at_mut(n);
             let (rows, cost) = rest.split_at_mut(path);
             cost[0] = ocp.continuous(black_box(at), &mut scratch, rates, rows);
         }),
-        time(|| own.jacobian(black_box(at), &mut jacobian)),
-        time(|| own.hessian(black_box(at), &weights, &mut hessian)),
+        time(|| {
+            k = 1 - k;
+            own.jacobian(black_box(points[k]), &mut jacobian);
+            own.keep(&mut kept[k]);
+        }),
+        time(|| {
+            k = 1 - k;
+            own.recall(&kept[k]);
+            own.hessian(black_box(points[k]), &weights, &mut hessian);
+        }),
     ];
+    own.jacobian(at, &mut jacobian);
+    own.hessian(at, &weights, &mut hessian);
     // The time is no input elsewhere.
     let without_time = |dense: &[f64], rows: usize| -> Vec<f64> {
         let rows = dense.chunks_exact(inputs).take(rows);

@@ -89,3 +89,21 @@ impl<Sp: Algebra, S: Scalar> Data<Sp, S> {
         }
     }
 }
+
+impl<Sp: Algebra> Data<Sp, f64> {
+    /// Hands to `visit` all that [`Tree::mass_matrix`] leaves of the pose and the momenta, and the
+    /// factors of H.
+    pub(super) fn visit(&mut self, visit: &mut impl FnMut(&mut [f64])) {
+        for j in 0..self.origin.len() {
+            Sp::visit_orientation(&mut self.orientation[j], visit);
+            visit(self.origin[j].components_mut());
+            visit(self.axis[j].components_mut());
+            visit(self.slide[j].components_mut());
+            visit(self.linear[j].components_mut());
+        }
+        visit(self.system_center.components_mut());
+        visit(self.base_rate.components_mut());
+        visit(&mut self.mass_matrix);
+        self.factors.visit(visit);
+    }
+}

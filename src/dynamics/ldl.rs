@@ -65,6 +65,12 @@ impl<S: Scalar> Ldl<S> {
 }
 
 impl Ldl<f64> {
+    /// Hands the factors to `visit`.
+    pub(super) fn visit(&mut self, visit: &mut impl FnMut(&mut [f64])) {
+        visit(&mut self.lower);
+        visit(&mut self.inverse_diagonal);
+    }
+
     /// Overwrites `b` (length n) with the solution, for constant factors and any scalar in `b`.
     #[inline(always)]
     pub fn solve_constant<S: Scalar>(&self, b: &mut [S]) {

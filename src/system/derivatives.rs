@@ -32,13 +32,20 @@ pub(super) fn of<Sp: Space>(system: &FreeFloating<Sp>) -> Box<dyn PointDerivativ
 
 struct NodeDerivatives<'a, Sp: Space, const N: usize, const FUSED: bool> {
     system: &'a FreeFloating<Sp>,
+    /// States and controls that first derivatives are those of, once they are loaded.
+    inputs: Vec<f64>,
+    is_loaded: bool,
+    /// How many numbers that takes to keep.
+    kept: usize,
     motion: Sensitivity<Sp, N, FUSED>,
-    /// Input behind each direction of `motion`.
-    inputs: Vec<usize>,
     /// Rates of the base that limits and costs are about, then θ̇.
     rates: Vec<f64>,
     /// Derivatives of ω₀ by η, one parameter after the other, where the system tumbles.
     tumbled: Vec<f64>,
+    /// Derivatives of ω₀ by the states, by rows as wide as those.
+    omega_by: Vec<f64>,
+    /// Whether η̇ and the rates are ω₀ itself, as in the plane.
+    straight: bool,
     /// What η and ω₀ alone determine: η̇, the base's rates, φ² where needed; with its derivatives
     /// by both.
     base_first: Vec<Dual<BASE>>,
@@ -78,13 +85,18 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         let tumbles = plant.drift.angular().is_some();
         let others = if tumbles { parameters } else { 0 };
         let outputs = parameters + Sp::ANGLES + usize::from(system.needs.rotation);
-        Self {
+        let mut derivatives = Self {
+            inputs: vec![0.0; states + n],
+            is_loaded: false,
+            kept: 0,
             motion: Sensitivity::new(&plant.tree, others),
-            inputs: (parameters..states).chain(0..others).collect(),
             rates: vec![0.0; Sp::ANGLES + n],
             tumbled: vec![0.0; others * Sp::ANGLES],
+            omega_by: vec![0.0; Sp::ANGLES * states],
+            straight: Sp::ANGLES == 1 && !system.needs.rotation,
             base_first: vec![Dual::constant(0.0); outputs],
-            base_second: vec![HyperDual::constant(0.0); outputs],
+            // Where they are ω₀ itself, they stay as they are here.
+            base_second: vec![HyperDual::seeded(0.0, None, Some(parameters)); outputs],
             base_by: vec![0.0; outputs * states],
             base_weights: vec![0.0; outputs],
             torque: vec![0.0; n],
@@ -93,7 +105,26 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             torque_weighted_by: vec![0.0; n * n],
             torque_second: vec![0.0; n * n],
             system,
+        };
+        // In the plane it takes less time to load a point again than to copy.
+        if Sp::ANGLES > 1 {
+            let mut kept = 1;
+            derivatives.visit(|part| kept += part.len());
+            derivatives.kept = kept;
         }
+        derivatives
+    }
+
+    /// Hands all that belongs to [`Self::load`] to `visit`, piece by piece.
+    fn visit(&mut self, mut visit: impl FnMut(&mut [f64])) {
+        visit(&mut self.inputs);
+        visit(&mut self.omega_by);
+        visit(&mut self.rates[Sp::ANGLES..]);
+        if self.system.needs.torque {
+            visit(&mut self.torque);
+            visit(&mut self.torque_by);
+        }
+        self.motion.visit(&mut visit);
     }
 
     fn parameters(&self) -> usize {
@@ -105,8 +136,17 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         self.system.plant.states()
     }
 
-    /// Free motion with its first derivatives, torques with theirs.
+    /// Free motion with its first derivatives, torques with theirs; nothing is to be done where
+    /// they are those already.
     fn load(&mut self, point: &Point<'_, f64>) {
+        let inputs = point.x.iter().chain(point.u);
+        if self.is_loaded && same(self.inputs.iter(), inputs.clone()) {
+            return;
+        }
+        for (to, &from) in self.inputs.iter_mut().zip(inputs) {
+            *to = from;
+        }
+        self.is_loaded = true;
         let system = self.system;
         let plant = &system.plant;
         let (eta, joints) = point.x.split_at(plant.parameters());
@@ -128,6 +168,11 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             }
         }
         self.motion.first(&self.tumbled);
+        let states = plant.states();
+        for (i, row) in self.omega_by.chunks_exact_mut(states).enumerate() {
+            let (by_eta, by_joints) = row.split_at_mut(plant.parameters());
+            self.motion.base_rate_by(i, by_joints, by_eta);
+        }
         if system.needs.torque {
             let data = self.motion.data();
             torques(&data.mass_matrix, point.u, &mut self.torque);
@@ -142,13 +187,66 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         let to = &mut self.base_by[row * states..(row + 1) * states];
         to[..parameters].copy_from_slice(&by[..parameters]);
         to[parameters..].fill(0.0);
-        for (direction, &input) in self.inputs.iter().enumerate() {
-            for (i, by) in by[parameters..parameters + Sp::ANGLES].iter().enumerate() {
-                to[input] += by * self.motion.base_rate_by(i, direction);
+        for (omega_by, by) in self.omega_by.chunks_exact(states).zip(&by[parameters..]) {
+            for (to, omega_by) in to.iter_mut().zip(omega_by) {
+                *to += by * omega_by;
             }
         }
         if let Some(rate) = row.checked_sub(parameters).filter(|&i| i < Sp::ANGLES) {
             self.rates[rate] = value;
+        }
+    }
+
+    /// `base_by` and the rates where both are ω₀ itself.
+    fn copy_base(&mut self) {
+        for row in self.base_by.chunks_exact_mut(self.omega_by.len()) {
+            row.copy_from_slice(&self.omega_by);
+        }
+        let omega = self.motion.data().base_rate;
+        self.rates[..Sp::ANGLES].copy_from_slice(omega.components());
+    }
+
+    /// What the base's outputs and their first derivatives are.
+    fn base_slopes(&mut self, eta: &[f64]) {
+        if self.straight {
+            return self.copy_base();
+        }
+        let omega = self.motion.data().base_rate;
+        let parameters = eta.len();
+        let eta: [Dual<BASE>; PARAMETERS] = seeded(eta, Dual::seeded);
+        let spin: [Dual<BASE>; 3] = seeded(omega.components(), |value, i| {
+            Dual::seeded(value, parameters + i)
+        });
+        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
+        base_outputs(self.system, &eta[..parameters], &spin, &mut self.base_first);
+        for row in 0..self.base_first.len() {
+            let output = self.base_first[row];
+            self.spread_base(row, output.value, &output.gradient);
+        }
+    }
+
+    /// The same with second derivatives.
+    fn base_bends(&mut self, eta: &[f64]) {
+        if self.straight {
+            return self.copy_base();
+        }
+        let omega = self.motion.data().base_rate;
+        let parameters = eta.len();
+        let eta: [HyperDual<PARAMETERS, BASE>; PARAMETERS] =
+            seeded(eta, |value, i| HyperDual::seeded(value, Some(i), Some(i)));
+        let spin: [HyperDual<PARAMETERS, BASE>; 3] = seeded(omega.components(), |value, i| {
+            HyperDual::seeded(value, None, Some(parameters + i))
+        });
+        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
+        base_outputs(
+            self.system,
+            &eta[..parameters],
+            &spin,
+            &mut self.base_second,
+        );
+        for row in 0..self.base_second.len() {
+            let (value, by) = (self.base_second[row].value, self.base_second[row].columns);
+            self.spread_base(row, value, &by);
         }
     }
 
@@ -233,22 +331,22 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
                 hessian.add(row, column, *second);
             }
             let by_rate = &bent[parameters..parameters + Sp::ANGLES];
-            for (direction, &input) in self.inputs.iter().enumerate() {
-                let mut second = 0.0;
-                for (i, by) in by_rate.iter().enumerate() {
-                    second += by * self.motion.base_rate_by(i, direction);
+            for (by, omega_by) in by_rate
+                .iter()
+                .zip(self.omega_by.chunks_exact(self.states()))
+            {
+                for (input, omega_by) in omega_by.iter().enumerate() {
+                    hessian.add_pair(row, input, by * omega_by);
                 }
-                hessian.add_pair(row, input, second);
             }
         }
     }
 
     /// Adds what bends in the weighted sum of the torques.
-    fn add_torques(&mut self, u: &[f64], hessian: &mut Lower<'_>) {
+    fn add_torques(&mut self, hessian: &mut Lower<'_>) {
         let n = self.system.joint_count();
         let (first, controls) = (self.parameters(), self.states());
         self.motion.torque_curvature(
-            u,
             &self.torque_weights,
             &mut self.torque_weighted_by,
             &mut self.torque_second,
@@ -264,6 +362,11 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
     }
 }
 
+/// Whether numbers are the same to the bit.
+fn same<'n>(a: impl Iterator<Item = &'n f64>, b: impl Iterator<Item = &'n f64>) -> bool {
+    a.zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}
+
 /// `values` with a direction each, and zeros.
 fn seeded<S: Scalar, const P: usize>(values: &[f64], seed: impl Fn(f64, usize) -> S) -> [S; P] {
     let mut seeded = [S::zero(); P];
@@ -276,22 +379,40 @@ fn seeded<S: Scalar, const P: usize>(values: &[f64], seed: impl Fn(f64, usize) -
 impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
     for NodeDerivatives<'_, Sp, N, FUSED>
 {
+    fn kept(&self) -> usize {
+        self.kept
+    }
+
+    fn keep(&mut self, kept: &mut [f64]) {
+        let Some((flag, mut rest)) = kept.split_first_mut() else {
+            return;
+        };
+        *flag = f64::from(u8::from(self.is_loaded));
+        self.visit(|part| {
+            let (to, others) = std::mem::take(&mut rest).split_at_mut(part.len());
+            to.copy_from_slice(part);
+            rest = others;
+        });
+    }
+
+    fn recall(&mut self, kept: &[f64]) {
+        let Some((_, mut rest)) = kept.split_first().filter(|(flag, _)| **flag != 0.0) else {
+            return;
+        };
+        self.is_loaded = true;
+        self.visit(|part| {
+            let (from, others) = rest.split_at(part.len());
+            part.copy_from_slice(from);
+            rest = others;
+        });
+    }
+
     fn jacobian(&mut self, point: Point<'_, f64>, jacobian: &mut [f64]) {
         self.load(&point);
         let system = self.system;
         let n = system.joint_count();
         let (parameters, states) = (self.parameters(), self.states());
-        let omega = self.motion.data().base_rate;
-        let eta: [Dual<BASE>; PARAMETERS] = seeded(&point.x[..parameters], Dual::seeded);
-        let spin: [Dual<BASE>; 3] = seeded(omega.components(), |value, i| {
-            Dual::seeded(value, parameters + i)
-        });
-        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
-        base_outputs(system, &eta[..parameters], &spin, &mut self.base_first);
-        for row in 0..self.base_first.len() {
-            let output = self.base_first[row];
-            self.spread_base(row, output.value, &output.gradient);
-        }
+        self.base_slopes(&point.x[..parameters]);
 
         jacobian.fill(0.0);
         let at = self.linearization(point);
@@ -309,9 +430,8 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
             row[at.rate(j)] = 1.0;
         }
         for (j, row) in rows.enumerate() {
-            for (direction, &input) in self.inputs.iter().enumerate() {
-                row[input] = self.motion.acceleration_by(j, direction);
-            }
+            let (by_eta, by_joints) = row[..states].split_at_mut(parameters);
+            self.motion.acceleration_by(j, by_joints, by_eta);
             row[at.control(j)] = 1.0;
         }
         let mut rest = rest;
@@ -334,20 +454,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
         let system = self.system;
         let n = system.joint_count();
         let (parameters, states) = (self.parameters(), self.states());
-        let omega = self.motion.data().base_rate;
-        let eta: [HyperDual<PARAMETERS, BASE>; PARAMETERS] =
-            seeded(&point.x[..parameters], |value, i| {
-                HyperDual::seeded(value, Some(i), Some(i))
-            });
-        let spin: [HyperDual<PARAMETERS, BASE>; 3] = seeded(omega.components(), |value, i| {
-            HyperDual::seeded(value, None, Some(parameters + i))
-        });
-        let spin = Sp::Angular::from_components(&spin[..Sp::ANGLES]);
-        base_outputs(system, &eta[..parameters], &spin, &mut self.base_second);
-        for row in 0..self.base_second.len() {
-            let (value, by) = (self.base_second[row].value, self.base_second[row].columns);
-            self.spread_base(row, value, &by);
-        }
+        self.base_bends(&point.x[..parameters]);
         self.weigh(point, weights);
         let mut by_omega = [0.0; 3];
         for (output, weight) in self.base_second.iter().zip(&self.base_weights) {
@@ -361,14 +468,24 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
         hessian.fill(0.0);
         let width = states + n + point.parameters.len() + 1;
         let mut hessian = Lower::new(hessian, width);
-        for (row, &i) in self.inputs.iter().enumerate() {
-            for (column, &j) in self.inputs[..=row].iter().enumerate() {
-                hessian.add(i.max(j), i.min(j), self.motion.second_by(row, column));
+        for row in 0..2 * n {
+            let by_joints = &mut hessian.row(parameters + row)[parameters..];
+            by_joints.copy_from_slice(self.motion.second_by(row));
+        }
+        for i in 0..self.tumbled.len() / Sp::ANGLES {
+            let (by_joints, by_eta) = self.motion.second_by(2 * n + i).split_at(2 * n);
+            for (j, second) in by_joints.iter().enumerate() {
+                hessian.add(parameters + j, i, *second);
+            }
+            for (j, second) in by_eta.iter().enumerate() {
+                hessian.add(i, j, *second);
             }
         }
-        self.add_attitude(&point.x[..parameters], &mut hessian);
+        if !self.straight {
+            self.add_attitude(&point.x[..parameters], &mut hessian);
+        }
         if system.needs.torque {
-            self.add_torques(point.u, &mut hessian);
+            self.add_torques(&mut hessian);
         }
         let at = self.linearization(point);
         let mut rest = &weights[states..];

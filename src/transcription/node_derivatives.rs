@@ -64,6 +64,28 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
         self.nonzeros
     }
 
+    /// How many numbers [`NodeDerivatives::keep`] writes.
+    pub fn kept(&self) -> usize {
+        match &self.evaluator {
+            Evaluator::DualNumbers(_) => 0,
+            Evaluator::Analytic { derivatives, .. } => derivatives.kept(),
+        }
+    }
+
+    /// Keeps what the last evaluation has found out for another one at the same point.
+    pub fn keep(&mut self, kept: &mut [f64]) {
+        if let Evaluator::Analytic { derivatives, .. } = &mut self.evaluator {
+            derivatives.keep(kept);
+        }
+    }
+
+    /// Takes up what was kept.
+    pub fn recall(&mut self, kept: &[f64]) {
+        if let Evaluator::Analytic { derivatives, .. } = &mut self.evaluator {
+            derivatives.recall(kept);
+        }
+    }
+
     /// Values at the inputs `v`, into `out`.
     pub fn values(&mut self, node: &Node<'a, O>, v: &[f64], out: &mut [f64]) {
         node.evaluate(v, &mut self.plain, out);

@@ -15,6 +15,9 @@ const VALUES: usize = 10;
 const SHARES: usize = 8;
 /// Most threads.
 const MOST: usize = 8;
+/// Most numbers that first derivatives of all points leave to second ones: 16 MiB, so that memory
+/// stays bounded on the largest meshes.
+const MOST_KEPT: usize = 1 << 21;
 
 /// Evaluates every point, each by itself, so that results do not depend on the number of threads.
 pub(super) struct Points<'a, O: Ocp> {
@@ -24,6 +27,8 @@ pub(super) struct Points<'a, O: Ocp> {
     starts: Vec<usize>,
     workers: Vec<Worker<'a, O>>,
     work: usize,
+    /// What first derivatives leave to second ones, a piece for each of the first points.
+    kept: Vec<f64>,
 }
 
 /// What one thread needs.
@@ -61,6 +66,9 @@ impl<'a, O: Ocp> Points<'a, O> {
             derivatives,
             inputs: vec![0.0; node.inputs()],
         };
+        let piece = derivatives.kept();
+        let pieces = MOST_KEPT.checked_div(piece).unwrap_or(0);
+        let kept = vec![0.0; piece * pieces.min(fractions.len())];
         let mut workers = vec![worker(derivatives)];
         if work >= LEAST_WORK {
             let count = parallel::thread_count().min(MOST);
@@ -72,6 +80,7 @@ impl<'a, O: Ocp> Points<'a, O> {
             starts,
             workers,
             work,
+            kept,
         }
     }
 
@@ -91,7 +100,7 @@ impl<'a, O: Ocp> Points<'a, O> {
             self.workers.len()
         };
         let iterate = Iterate { node, x, shared };
-        self.each(count, iterate, out, |worker, _, out| {
+        self.each(count, iterate, out, |worker, _, _, out| {
             worker.derivatives.values(node, &worker.inputs, out);
         });
     }
@@ -105,8 +114,9 @@ impl<'a, O: Ocp> Points<'a, O> {
         out: &mut [f64],
     ) {
         let iterate = Iterate { node, x, shared };
-        self.each(self.workers.len(), iterate, out, |worker, _, out| {
+        self.each(self.workers.len(), iterate, out, |worker, _, kept, out| {
             worker.derivatives.jacobian(node, &worker.inputs, out);
+            worker.derivatives.keep(kept);
         });
     }
 
@@ -121,21 +131,23 @@ impl<'a, O: Ocp> Points<'a, O> {
     ) {
         let iterate = Iterate { node, x, shared };
         let width = node.outputs();
-        self.each(self.workers.len(), iterate, out, |worker, k, out| {
+        self.each(self.workers.len(), iterate, out, |worker, k, kept, out| {
             let weights = &weights[k * width..(k + 1) * width];
+            worker.derivatives.recall(kept);
             worker
                 .derivatives
                 .hessian(node, &worker.inputs, weights, out);
         });
     }
 
-    /// Calls `body` for every point with its part of `out`, its inputs being loaded.
+    /// Calls `body` for every point with its piece of what is kept, or none, and its part of `out`,
+    /// its inputs being loaded.
     fn each(
         &mut self,
         count: usize,
         iterate: Iterate<'_, 'a, O>,
         out: &mut [f64],
-        body: impl Fn(&mut Worker<'a, O>, usize, &mut [f64]) + Sync,
+        body: impl Fn(&mut Worker<'a, O>, usize, &mut [f64], &mut [f64]) + Sync,
     ) {
         let points = self.fractions.len();
         let width = out.len() / points;
@@ -143,12 +155,28 @@ impl<'a, O: Ocp> Points<'a, O> {
             return;
         }
         let (fractions, starts) = (&self.fractions, &self.starts);
-        let share = points.div_ceil(SHARES * count);
-        let shares = out.chunks_mut(share * width).enumerate();
-        parallel::for_each(&mut self.workers[..count], shares, |worker, (s, out)| {
-            for (k, out) in (s * share..).zip(out.chunks_exact_mut(width)) {
-                iterate.load(starts[k], fractions[k], &mut worker.inputs);
-                body(worker, k, out);
+        let visit = |worker: &mut Worker<'a, O>, k: usize, kept: &mut [f64], out: &mut [f64]| {
+            iterate.load(starts[k], fractions[k], &mut worker.inputs);
+            body(worker, k, kept, out);
+        };
+        let workers = &mut self.workers[..count];
+        let piece = workers[0].derivatives.kept().max(1);
+        let keeping = self.kept.len() / piece;
+        let (kept, out) = (&mut self.kept, out.split_at_mut(keeping * width));
+        let share = keeping.div_ceil(SHARES * count).max(1);
+        let shares = out.0.chunks_mut(share * width);
+        let shares = shares.zip(kept.chunks_mut(share * piece)).enumerate();
+        parallel::for_each(workers, shares, |worker, (s, (out, kept))| {
+            let pieces = kept.chunks_exact_mut(piece);
+            for (k, (kept, out)) in (s * share..).zip(pieces.zip(out.chunks_exact_mut(width))) {
+                visit(worker, k, kept, out);
+            }
+        });
+        let share = (points - keeping).div_ceil(SHARES * count).max(1);
+        let shares = out.1.chunks_mut(share * width).enumerate();
+        parallel::for_each(workers, shares, |worker, (s, out)| {
+            for (k, out) in (keeping + s * share..).zip(out.chunks_exact_mut(width)) {
+                visit(worker, k, &mut [], out);
             }
         });
     }

@@ -15,6 +15,7 @@ mod free_breakpoints;
 mod functions;
 mod in_space;
 mod in_the_plane;
+mod kept;
 mod peaks;
 mod problem_kinds;
 mod reference;

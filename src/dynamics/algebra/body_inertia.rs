@@ -1,6 +1,6 @@
 //! Spatial inertia of one body: from motions to momenta and forces.
 
-use super::{Algebra, Force, Motion, Vector};
+use super::{Algebra, AngularMap, Coriolis, Force, Motion, Vector};
 use crate::autodiff::Scalar;
 
 /// Mass, mass centre about the base origin, and rotational inertia about that mass centre, in base
@@ -53,20 +53,48 @@ impl<Sp: Algebra> BodyInertia<Sp> {
         Force::new(angular, linear)
     }
 
-    /// V ×* I Y − Y ×* I V − I(V × Y) of two motions: a pure couple,
-    /// (tr J·1 − 2J)(ω × υ) + 2m·v_c × y_c.
+    /// The body's share of the Coriolis forces at a velocity whose linear momentum is `momentum`.
     #[inline(always)]
-    pub fn couple<S: Scalar>(
-        &self,
-        (velocity, v_center): (&Motion<Sp, S>, &Sp::Linear<S>),
-        (other, y_center): (&Motion<Sp, S>, &Sp::Linear<S>),
-    ) -> Sp::Angular<S> {
-        let couple = Sp::moment(v_center, y_center).times(2.0 * self.mass);
-        if Sp::ANGLES == 1 {
-            return couple;
-        }
-        let crossed = Sp::cross_angular(&velocity.angular, &other.angular);
+    pub fn coriolis(&self, angular: &Sp::Angular<f64>, momentum: &Sp::Linear<f64>) -> Coriolis<Sp> {
         let moments = Sp::second_moments(&self.rotational);
-        couple.plus(&Sp::apply_constant(&moments, &crossed))
+        let spin = Sp::apply_constant(&self.rotational, angular);
+        let moment = AngularMap::by_axes(|axis| {
+            let linear = Sp::cross(axis, momentum);
+            let moment = Sp::moment(&self.center, &linear).times(2.0);
+            if Sp::ANGLES == 1 {
+                return moment;
+            }
+            let crossed = Sp::cross_angular(angular, axis);
+            moment
+                .plus(&Sp::apply_constant(&moments, &crossed))
+                .plus(&Sp::cross_angular(axis, &spin).times(2.0))
+        });
+        Coriolis {
+            moment,
+            momentum: *momentum,
+        }
+    }
+
+    /// The matrix of the power on the motion `other`, whose velocity of the mass centre is
+    /// `at_center`, of the Coriolis force in two angular velocities: of the body, and of its change.
+    #[inline(always)]
+    pub fn curvature(
+        &self,
+        other: &Motion<Sp, f64>,
+        at_center: &Sp::Linear<f64>,
+    ) -> AngularMap<Sp> {
+        let moments = Sp::second_moments(&self.rotational);
+        let weighted = Sp::apply_constant(&moments, &other.angular);
+        AngularMap::by_axes(|axis| {
+            let carried = Sp::cross(axis, &self.center);
+            let power = Sp::moment(&carried, at_center).times(2.0 * self.mass);
+            if Sp::ANGLES == 1 {
+                return power;
+            }
+            let spin = Sp::apply_constant(&self.rotational, axis);
+            power
+                .plus(&Sp::cross_angular(&weighted, axis))
+                .plus(&Sp::cross_angular(&spin, &other.angular).times(2.0))
+        })
     }
 }

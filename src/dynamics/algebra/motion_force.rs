@@ -3,7 +3,7 @@
 //!
 //! Everything is inlined, so that it is compiled for the vector instructions of whoever calls it.
 
-use super::{Algebra, Vector};
+use super::{Algebra, Vector, plus_inner};
 use crate::autodiff::{Dual, Scalar, Times};
 use std::fmt::Debug;
 use std::marker::PhantomData;
@@ -61,18 +61,11 @@ impl<Sp: Algebra, S: Scalar, D: Side> SpatialVector<Sp, S, D> {
         Self::new(Sp::Angular::zero(), Sp::Linear::zero())
     }
 
-    /// All components, the angular ones first.
+    /// Hands the components to `visit`.
     #[inline(always)]
-    pub fn iter(&self) -> impl Iterator<Item = &S> {
-        let angular = self.angular.components();
-        angular.iter().chain(self.linear.components())
-    }
-
-    #[inline(always)]
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut S> {
-        let (angular, linear) = (&mut self.angular, &mut self.linear);
-        let angular = angular.components_mut();
-        angular.iter_mut().chain(linear.components_mut())
+    pub fn visit(&mut self, visit: &mut impl FnMut(&mut [S])) {
+        visit(self.angular.components_mut());
+        visit(self.linear.components_mut());
     }
 
     #[inline(always)]
@@ -97,13 +90,9 @@ impl<Sp: Algebra, S: Scalar, D: Side> SpatialVector<Sp, S, D> {
     where
         S: Times<K>,
     {
-        let mut pairs = self.iter().zip(other.iter());
-        let (&a, &b) = pairs.next().expect("a motion has components");
-        let mut power = a.times(b);
-        for (&a, &b) in pairs {
-            power = power.plus_times(a, b);
-        }
-        power
+        let (a, b) = (self.angular.components(), other.angular.components());
+        let angular = plus_inner(a[0].times(b[0]), &a[1..], &b[1..]);
+        plus_inner(angular, self.linear.components(), other.linear.components())
     }
 }
 
@@ -141,45 +130,15 @@ impl<Sp: Algebra> Motion<Sp, f64> {
     }
 }
 
-impl<Sp: Algebra, D: Side> SpatialVector<Sp, f64, D> {
-    /// A constant, as any number.
-    #[inline(always)]
-    pub fn lifted<S: Scalar>(&self) -> SpatialVector<Sp, S, D> {
-        let mut lifted = SpatialVector::zero();
-        for (to, &from) in lifted.iter_mut().zip(self.iter()) {
-            *to = S::constant(from);
-        }
-        lifted
-    }
-}
-
 impl<Sp: Algebra, const N: usize, const FUSED: bool, D: Side> SpatialVector<Sp, Dual<N, FUSED>, D> {
-    /// The value without its derivatives.
-    #[inline(always)]
-    pub fn value(&self) -> SpatialVector<Sp, f64, D> {
-        let mut value = SpatialVector::zero();
-        for (to, from) in value.iter_mut().zip(self.iter()) {
-            *to = from.value;
-        }
-        value
-    }
-
     /// The derivatives times `factor`, about another value.
     #[inline(always)]
     pub fn derivatives(mut self, value: &SpatialVector<Sp, f64, D>, factor: f64) -> Self {
-        for (c, &value) in self.iter_mut().zip(value.iter()) {
+        self.each(value, |c, &value| {
             *c *= factor;
             c.value = value;
-        }
+        });
         self
-    }
-
-    /// Adds `factor`·`by` to the value.
-    #[inline(always)]
-    pub fn add_value(&mut self, by: &SpatialVector<Sp, f64, D>, factor: f64) {
-        for (to, by) in self.iter_mut().zip(by.iter()) {
-            to.value += factor * by;
-        }
     }
 
     /// Adds `factor`·`constant`.
@@ -189,23 +148,38 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool, D: Side> SpatialVector<Sp, 
         constant: &SpatialVector<Sp, f64, D>,
         factor: Dual<N, FUSED>,
     ) {
-        for (to, &by) in self.iter_mut().zip(constant.iter()) {
-            *to = to.plus_times(factor, by);
-        }
+        self.each(constant, |to, &by| *to = to.plus_times(factor, by));
     }
 
-    /// Adds `factor`·`by` to the derivative in `direction`, where there is one.
+    /// Adds `by` to the derivative in `direction`.
     #[inline(always)]
-    pub fn add_derivative(
+    pub fn add_derivative(&mut self, direction: usize, by: &SpatialVector<Sp, f64, D>) {
+        self.each(by, |to, &by| to.add_derivative(direction, by));
+    }
+
+    /// Each component with that of a constant.
+    #[inline(always)]
+    fn each(
         &mut self,
-        direction: Option<usize>,
-        by: &SpatialVector<Sp, f64, D>,
-        factor: f64,
+        constant: &SpatialVector<Sp, f64, D>,
+        mut change: impl FnMut(&mut Dual<N, FUSED>, &f64),
     ) {
-        if let Some(direction) = direction {
-            for (to, by) in self.iter_mut().zip(by.iter()) {
-                to.add_derivative(direction, factor * by);
-            }
+        let (angular, linear) = (&constant.angular, &constant.linear);
+        for (c, constant) in self
+            .angular
+            .components_mut()
+            .iter_mut()
+            .zip(angular.components())
+        {
+            change(c, constant);
+        }
+        for (c, constant) in self
+            .linear
+            .components_mut()
+            .iter_mut()
+            .zip(linear.components())
+        {
+            change(c, constant);
         }
     }
 }

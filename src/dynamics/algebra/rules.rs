@@ -59,6 +59,13 @@ pub trait Algebra: Copy + Debug + Send + Sync + 'static {
         orientation: &Self::Orientation<S>,
         vector: &Self::Linear<f64>,
     ) -> Self::Linear<S>;
+    /// Hands the numbers of an orientation to `visit`.
+    fn visit_orientation(
+        orientation: &mut Self::Orientation<f64>,
+        visit: &mut impl FnMut(&mut [f64]),
+    );
+    /// Hands the numbers of an inertia to `visit`.
+    fn visit_inertia(inertia: &mut Self::Inertia<f64>, visit: &mut impl FnMut(&mut [f64]));
     /// A vector in base axes by its components along the body's axes.
     fn along_axes<S: Scalar>(
         orientation: &Self::Orientation<S>,

@@ -67,6 +67,15 @@ impl Algebra for Spatial {
     fn rotated<S: Scalar>(o: &[Vector3<S>; 3], v: &Vector3<f64>) -> Vector3<S> {
         o[0].times(v.x) + o[1].times(v.y) + o[2].times(v.z)
     }
+    fn visit_orientation(orientation: &mut [Vector3<f64>; 3], visit: &mut impl FnMut(&mut [f64])) {
+        for column in orientation {
+            visit(column.components_mut());
+        }
+    }
+    fn visit_inertia(inertia: &mut Symmetric<f64>, visit: &mut impl FnMut(&mut [f64])) {
+        visit(&mut inertia.diagonal);
+        visit(&mut inertia.products);
+    }
     #[inline]
     fn along_axes<S: Scalar>(o: &[Vector3<S>; 3], v: &Vector3<S>) -> Vector3<S> {
         Vector3::new(
@@ -97,10 +106,12 @@ impl Algebra for Spatial {
     }
     #[inline]
     fn sum<S: Scalar>(a: &Symmetric<S>, b: &Symmetric<S>) -> Symmetric<S> {
-        Symmetric {
-            diagonal: [0, 1, 2].map(|i| a.diagonal[i] + b.diagonal[i]),
-            products: [0, 1, 2].map(|i| a.products[i] + b.products[i]),
+        let mut sum = *a;
+        for i in 0..3 {
+            sum.diagonal[i] += b.diagonal[i];
+            sum.products[i] += b.products[i];
         }
+        sum
     }
     #[inline]
     fn with_point_mass<S: Scalar>(
@@ -148,10 +159,12 @@ impl Algebra for Spatial {
         let determinant =
             xx * cofactors.diagonal[0] + xy * cofactors.products[2] + xz * cofactors.products[1];
         let factor = determinant.recip();
-        Symmetric {
-            diagonal: cofactors.diagonal.map(|c| c * factor),
-            products: cofactors.products.map(|c| c * factor),
+        let mut inverse = cofactors;
+        for i in 0..3 {
+            inverse.diagonal[i] *= factor;
+            inverse.products[i] *= factor;
         }
+        inverse
     }
     #[inline(always)]
     fn cross<K: Scalar, S: Scalar + Times<K>>(omega: &Vector3<K>, r: &Vector3<S>) -> Vector3<S> {

@@ -107,3 +107,12 @@ impl<S: Scalar, const N: usize> Vector<S> for SVector<S, N> {
 pub(super) fn vector<S, const N: usize>(components: [S; N]) -> SVector<S, N> {
     SVector::from_array_storage(ArrayStorage([components]))
 }
+
+/// sum + Σ aᵢ·bᵢ.
+#[inline(always)]
+pub(in crate::dynamics) fn plus_inner<K: Copy, S: Times<K>>(mut sum: S, a: &[S], b: &[K]) -> S {
+    for (&a, &b) in a.iter().zip(b) {
+        sum = sum.plus_times(a, b);
+    }
+    sum
+}

@@ -1,8 +1,7 @@
 //! What depends on the joint positions alone, and the steps from body to body.
 
-use super::workspace::in_sweep;
-use crate::autodiff::{Dual, Scalar};
-use crate::dynamics::algebra::{Algebra, BodyInertia, Force, Motion, Vector};
+use crate::autodiff::Scalar;
+use crate::dynamics::algebra::{Algebra, BodyInertia, CompositeInertia, Force, Motion, Vector};
 use crate::dynamics::{Data, JointKind, Tree};
 
 /// Everything that depends on the joint positions alone.
@@ -15,6 +14,9 @@ pub(super) struct Configuration<Sp: Algebra> {
     pub inverse_inertia: Sp::Inertia<f64>,
     pub base: BodyInertia<Sp>,
     pub bodies: Vec<BodyInertia<Sp>>,
+    /// Of the whole robot, and of what each joint carries.
+    pub whole: CompositeInertia<Sp>,
+    pub carried: Vec<CompositeInertia<Sp>>,
     /// Motion of unit joint rates.
     pub axes: Vec<Motion<Sp, f64>>,
     /// Motion of the base against unit joint rates, sign reversed.
@@ -31,7 +33,15 @@ impl<Sp: Algebra> Configuration<Sp> {
         };
         let mut base = body(tree.base_mass, &tree.base_inertia);
         base.center = tree.base_center;
+        let whole = CompositeInertia::of(&base);
         Self {
+            whole,
+            carried: (tree.links.iter())
+                .map(|link| CompositeInertia {
+                    mass: link.carried,
+                    ..whole
+                })
+                .collect(),
             data: Data::new(tree),
             parents: tree.links.iter().map(|link| link.parent).collect(),
             total_mass: tree.total_mass,
@@ -53,7 +63,14 @@ impl<Sp: Algebra> Configuration<Sp> {
         let data = &self.data;
         self.center = data.system_center;
         self.inverse_inertia = data.inverse_inertia;
+        self.whole = CompositeInertia::of(&self.base);
         for (j, link) in tree.links.iter().enumerate() {
+            let carried = &mut self.carried[j];
+            carried.moment = data.first_moment[j];
+            carried.inertia = data.composite[j];
+            if link.parent.is_none() {
+                self.whole.add(carried);
+            }
             let body = &mut self.bodies[j];
             body.center = data.center[j];
             body.rotational = data.inertia[j];
@@ -95,43 +112,38 @@ impl<Sp: Algebra> Configuration<Sp> {
 
 /// Steps from body to body.
 impl<Sp: Algebra> Configuration<Sp> {
-    /// Gives body `j` the motion of its carrier or, where it stands on the base, `base`.
+    /// What the carrier of joint `j` has or, where it stands on the base, `base`.
     #[inline(always)]
-    pub fn carried<'m, S: Scalar>(
-        &self,
-        j: usize,
-        motions: &'m mut [Motion<Sp, S>],
-        base: &Motion<Sp, S>,
-    ) -> &'m mut Motion<Sp, S> {
-        let (before, rest) = motions.split_at_mut(j);
-        let from = match self.parents[j] {
-            Some(parent) => &before[parent],
-            None => base,
-        };
-        rest[0] = *from;
-        &mut rest[0]
+    pub fn carrier<T: Copy>(&self, j: usize, of_bodies: &[T], base: T) -> T {
+        self.parents[j].map_or(base, |parent| of_bodies[parent])
     }
 
-    /// Adds the force on body `j`, as its carrier sees it, to that on the carrier or, where it
-    /// stands on the base, to `base`.
+    /// Joint `j` and those between it and the base, outermost first.
     #[inline(always)]
-    pub fn hand_on<const N: usize, const FUSED: bool>(
-        &self,
-        start: usize,
-        j: usize,
-        forces: &mut [Force<Sp, Dual<N, FUSED>>],
-        base: &mut Force<Sp, Dual<N, FUSED>>,
-    ) {
-        let (before, rest) = forces.split_at_mut(j);
-        let force = &rest[0];
-        let to = match self.parents[j] {
-            Some(parent) => &mut before[parent],
-            None => base,
-        };
-        to.add(force);
-        let direction = in_sweep::<N>(start, j);
-        if direction.is_some() {
-            to.add_derivative(direction, &self.axes[j].cross_force(&force.value()), 1.0);
+    pub fn path(&self, j: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(j), |&k| self.parents[k])
+    }
+
+    /// Adds what each body has to what its carrier or the base has, from the tips inwards.
+    #[inline(always)]
+    pub fn gather<T: Copy>(&self, of_bodies: &mut [T], base: &mut T, add: impl Fn(&mut T, &T)) {
+        for j in (0..of_bodies.len()).rev() {
+            let own = of_bodies[j];
+            let to = match self.parents[j] {
+                Some(parent) => &mut of_bodies[parent],
+                None => &mut *base,
+            };
+            add(to, &own);
+        }
+    }
+
+    /// Motions of the bodies at the joint rates `rates` on that of the base, outwards.
+    #[inline(always)]
+    pub fn motions(&self, base: Motion<Sp, f64>, rates: &[f64], motions: &mut [Motion<Sp, f64>]) {
+        for (j, (axis, &rate)) in self.axes.iter().zip(rates).enumerate() {
+            let mut motion = self.carrier(j, motions, base);
+            motion.add_times(axis, rate);
+            motions[j] = motion;
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The free motion and where its derivatives are kept.
 
 use super::configuration::Configuration;
-use super::workspace::{Adjoint, Passes, Tangent, TorqueFields};
+use super::directions::Directions;
+use super::workspace::{Adjoint, Carried, Field, JointStep, Tangent};
 use crate::autodiff::{Dual, Scalar};
 use crate::dynamics::algebra::{Algebra, Force, Motion, Vector};
 use crate::dynamics::{Data, Tree};
@@ -25,10 +26,15 @@ pub struct Sensitivity<Sp: Algebra, const N: usize, const FUSED: bool> {
     pub(super) spun: Vec<Motion<Sp, f64>>,
     /// First derivatives, by sweeps.
     pub(super) tangents: Vec<Tangent<Sp, N, FUSED>>,
-    pub(super) passes: Passes<Sp, Dual<N, FUSED>>,
-    pub(super) adjoint: Adjoint<Sp, Dual<N, FUSED>>,
-    pub(super) torque: TorqueFields<Sp, Dual<N, FUSED>>,
-    /// Second derivatives, by rows as wide as all sweeps.
+    pub(super) residual: Vec<Dual<N, FUSED>>,
+    pub(super) carried: Carried<Sp>,
+    pub(super) steps: Vec<JointStep<Sp>>,
+    pub(super) directions: Directions<Sp>,
+    pub(super) adjoint: Adjoint<Sp>,
+    /// Momentum-free motions of the controls and of the torques' weights.
+    pub(super) controls: Field<Sp>,
+    pub(super) weights: Field<Sp>,
+    /// Second derivatives, the lower triangle by rows as wide as all sweeps.
     pub(super) hessian: Vec<f64>,
 }
 
@@ -54,14 +60,13 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
                     joints: vec![Dual::constant(0.0); n],
                 })
                 .collect(),
-            passes: Passes {
-                velocity: vec![Motion::zero(); n],
-                acceleration: vec![Motion::zero(); n],
-                force: vec![Force::zero(); n],
-                residual: vec![Dual::constant(0.0); n],
-            },
+            residual: vec![Dual::constant(0.0); n],
+            carried: Carried::new(n),
+            steps: vec![JointStep::zero(); n],
+            directions: Directions::new(n, sweeps * N),
             adjoint: Adjoint::new(n),
-            torque: TorqueFields::new(n, n.div_ceil(N)),
+            controls: Field::new(n),
+            weights: Field::new(n),
             hessian: vec![0.0; directions * sweeps * N],
         }
     }
@@ -131,19 +136,44 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         &self.accelerations
     }
 
-    /// Derivative of the acceleration of joint `j` in `direction`; after [`Sensitivity::first`].
-    pub fn acceleration_by(&self, j: usize, direction: usize) -> f64 {
-        self.tangents[direction / N].joints[j].gradient[direction % N]
+    /// Derivatives of the acceleration of joint `j`: by θ and θ̇, and into the first places of
+    /// `by_others` by the others; after [`Sensitivity::first`].
+    pub fn acceleration_by(&self, j: usize, by_joints: &mut [f64], by_others: &mut [f64]) {
+        self.copy(|sweep| &sweep.joints[j], by_joints, by_others);
     }
 
-    /// Derivative of component `i` of the base's angular velocity in `direction`; after
-    /// [`Sensitivity::first`].
-    pub fn base_rate_by(&self, i: usize, direction: usize) -> f64 {
-        self.tangents[direction / N].velocity.angular.components()[i].gradient[direction % N]
+    /// Derivatives of component `i` of the base's angular velocity, as
+    /// [`Sensitivity::acceleration_by`] has them.
+    pub fn base_rate_by(&self, i: usize, by_joints: &mut [f64], by_others: &mut [f64]) {
+        let component = |sweep| component::<Sp, N, FUSED>(sweep, i);
+        self.copy(component, by_joints, by_others);
     }
 
-    /// Second derivative in two directions, `row` ≥ `column`; after [`Sensitivity::second`].
-    pub fn second_by(&self, row: usize, column: usize) -> f64 {
-        self.hessian[row * self.tangents.len() * N + column]
+    fn copy<'s>(
+        &'s self,
+        number: impl Fn(&'s Tangent<Sp, N, FUSED>) -> &'s Dual<N, FUSED>,
+        by_joints: &mut [f64],
+        by_others: &mut [f64],
+    ) {
+        let first = by_joints.len();
+        for (to, sweep) in by_joints.chunks_mut(N).zip(&self.tangents) {
+            to.copy_from_slice(&number(sweep).gradient[..to.len()]);
+        }
+        for (direction, to) in (first..).zip(by_others).take(self.others) {
+            *to = number(&self.tangents[direction / N]).gradient[direction % N];
+        }
     }
+
+    /// Second derivatives in direction `row` and in those up to it; after [`Sensitivity::second`].
+    pub fn second_by(&self, row: usize) -> &[f64] {
+        &self.hessian[row * self.tangents.len() * N..][..=row]
+    }
+}
+
+/// Component `i` of the base's angular velocity.
+fn component<Sp: Algebra, const N: usize, const FUSED: bool>(
+    sweep: &Tangent<Sp, N, FUSED>,
+    i: usize,
+) -> &Dual<N, FUSED> {
+    &sweep.velocity.angular.components()[i]
 }

@@ -1,9 +1,9 @@
 //! Second derivatives of a weighted sum of the base's motion and the free accelerations.
 
 use super::Sensitivity;
-use super::workspace::in_sweep;
+use super::workspace::JointGradient;
 use crate::autodiff::{Dual, Kernel, Scalar, Times, dispatch};
-use crate::dynamics::algebra::{Algebra, Force, Motion, Vector};
+use crate::dynamics::algebra::{Algebra, AngularMap, Force, Motion, Vector, plus_inner};
 
 impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// Second derivatives of Σ `accelerations`·q̈ + Σ `turning`·ω₀, after [`Sensitivity::first`].
@@ -15,175 +15,196 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         rates.copy_from_slice(accelerations);
         self.fixed.data.factors.solve(rates);
         rates.iter_mut().for_each(|rate| *rate = -*rate);
-        self.hessian.fill(0.0);
-        for sweep in 0..self.tangents.len() {
-            dispatch(Second {
-                of: self,
-                turning,
-                sweep,
-            });
-        }
+        dispatch(Second { of: self, turning });
     }
 
     /// Weight of the system's angular momentum (base axes) in the sum of [`Sensitivity::second`].
     pub fn momentum_weight(&self) -> impl Iterator<Item = f64> {
-        let rigid = self.adjoint.rigid.first();
-        rigid
-            .into_iter()
-            .flat_map(|rigid| rigid.angular.components().iter().map(|c| -c.value))
+        self.adjoint.rigid.angular.components().iter().map(|c| -c)
     }
 }
 
-/// Adds the values of `angle` to `sum`.
-#[inline(always)]
-fn add_values<Sp: Algebra, const N: usize, const FUSED: bool>(
-    sum: &mut Sp::Angular<f64>,
-    angle: &Sp::Angular<Dual<N, FUSED>>,
-) {
-    for (sum, c) in sum.components_mut().iter_mut().zip(angle.components()) {
-        *sum += c.value;
-    }
-}
-
-/// One sweep.
 struct Second<'a, Sp: Algebra, const N: usize, const FUSED: bool> {
     of: &'a mut Sensitivity<Sp, N, FUSED>,
     turning: &'a [f64],
-    sweep: usize,
 }
 
 impl<Sp: Algebra, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, FUSED> {
     #[inline(always)]
     fn run(self) {
-        let Self { of, turning, sweep } = self;
-        let start = sweep * N;
-        let n = of.joints;
-        let place = |direction: usize| in_sweep::<N>(start, direction);
-        let base_velocity = of.tangents[sweep].velocity;
-        let base_acceleration = of.tangents[sweep].acceleration;
-        let base_virtual = of.fixed.base_motion(&of.adjoint.rates).lifted();
+        let Self { of, turning } = self;
+        let whole = of.weigh(turning);
+        of.grade();
+        of.contract(&whole);
+        of.mirror();
+        of.join();
+    }
+}
 
-        // Outwards: motions, and what each body makes of them.
-        of.velocities(start, &base_velocity);
-        let mut couple = Sp::Angular::<f64>::zero();
-        for j in 0..n {
-            let across = of.fixed.axes[j].constant_cross(&of.passes.velocity[j]);
-            of.acceleration(start, j, &base_acceleration, &across);
-            let body = &of.fixed.bodies[j];
-            let axis = &of.fixed.axes[j];
-            let acceleration = &mut of.passes.acceleration[j];
-            acceleration.add_constant_times(axis, of.tangents[sweep].joints[j]);
-            let adjoint = &mut of.adjoint;
-            let motion = of
-                .fixed
-                .carried(j, &mut adjoint.virtual_motion, &base_virtual);
-            motion.add_derivative(place(j), &axis.constant_cross(&motion.value()), -1.0);
-            motion.add_value(axis, adjoint.rates[j]);
-            let velocity = &of.passes.velocity[j];
-            let at_center = body.center_velocity(velocity);
-            let beside = body.center_velocity(motion);
-            let weight = body.couple((velocity, &at_center), (motion, &beside));
-            add_values::<Sp, N, FUSED>(&mut couple, &weight);
-            of.passes.force[j] = body.force(velocity, &at_center, acceleration);
-            adjoint.momentum[j] = body.momentum(velocity, &at_center);
-            adjoint.virtual_momentum[j] = body.momentum(motion, &beside);
-            adjoint.weight[j] = Force::new(weight, Sp::Linear::zero());
-            adjoint.across[j] = across;
+impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+    /// The virtual motion and what it makes of the bodies that each joint carries; returns the
+    /// matrix of how two changes of the whole robot's velocity weigh together.
+    #[inline(always)]
+    fn weigh(&mut self, turning: &[f64]) -> AngularMap<Sp> {
+        let (fixed, carried, adjoint) = (&self.fixed, &self.carried, &mut self.adjoint);
+        let base = fixed.base_motion(&adjoint.rates);
+        fixed.motions(base, &adjoint.rates, &mut adjoint.virtual_motion);
+
+        let own = &fixed.base;
+        let mut whole = own.curvature(&base, &own.center_velocity(&base));
+        // Of what a joint carries, a change of the velocity weighs in the virtual motion of its
+        // carrier, which is common to all those bodies, and in what further joints add.
+        let mut couple = carried.whole.weight(&base);
+        for (j, body) in fixed.bodies.iter().enumerate() {
+            let motion = &adjoint.virtual_motion[j];
+            let at_center = body.center_velocity(motion);
+            adjoint.virtual_momentum[j] = body.momentum(motion, &at_center);
+            adjoint.curvature[j] = body.curvature(motion, &at_center);
+            adjoint.weight[j] = self.steps[j].coriolis.times(adjoint.rates[j]);
         }
-        let own = &of.fixed.base;
-        let beside = own.center_velocity(&base_virtual);
-        let own_weight = own.couple(
-            (&base_velocity, &own.center_velocity(&base_velocity)),
-            (&base_virtual, &beside),
-        );
-        add_values::<Sp, N, FUSED>(&mut couple, &own_weight);
-        let mut virtual_momentum = own.momentum(&base_virtual, &beside);
+        let mut forgotten = Force::zero();
+        fixed.gather(&mut adjoint.virtual_momentum, &mut forgotten, Force::add);
+        fixed.gather(&mut adjoint.curvature, &mut whole, AngularMap::add);
+        fixed.gather(&mut adjoint.weight, &mut couple, |to, own| {
+            *to = to.plus(own)
+        });
+        for (j, coriolis) in carried.coriolis.iter().enumerate() {
+            let motion = fixed.carrier(j, &adjoint.virtual_motion, base);
+            adjoint.weight[j] = adjoint.weight[j].plus(&coriolis.weight(&motion));
+        }
 
         // The motion, rigid about the mass centre, whose momentum weighs against all of that.
         for (sum, weight) in couple.components_mut().iter_mut().zip(turning) {
             *sum += weight;
         }
-        let angular = Sp::apply_constant(&of.fixed.inverse_inertia, &couple).times(-1.0);
-        let linear = Sp::cross_constant(&angular, &of.fixed.center).times(-1.0);
-        let rigid: Motion<Sp, Dual<N, FUSED>> = Motion::new(angular, linear).lifted();
-        for j in 0..n {
-            let motion = of.fixed.carried(j, &mut of.adjoint.rigid, &rigid);
-            let carried_along = of.fixed.axes[j].constant_cross(&motion.value());
-            motion.add_derivative(place(j), &carried_along, -1.0);
-        }
-
-        // Inwards: the gradient.
-        let mut weight = own.momentum(&rigid, &own.center_velocity(&rigid));
-        weight.angular = weight.angular.plus(&own_weight);
-        for j in (0..n).rev() {
-            let adjoint = &mut of.adjoint;
-            let axis = &of.fixed.axes[j];
-            let body = &of.fixed.bodies[j];
-            let rigid = &adjoint.rigid[j];
-            // Until now the weight holds this body's couple and what its children handed on.
-            let rigid_momentum = body.momentum(rigid, &body.center_velocity(rigid));
-            adjoint.weight[j].add(&rigid_momentum);
-            let (force, momentum) = (&of.passes.force[j], &adjoint.momentum[j]);
-            let (weighs, beside) = (&adjoint.weight[j], &adjoint.virtual_momentum[j]);
-            let across = &adjoint.across[j];
-
-            let mut pulled = axis.constant_cross(&of.passes.acceleration[j]);
-            pulled.add_times(&across.cross(&of.passes.velocity[j]), -1.0);
-            let by_position = axis.constant_cross(&adjoint.virtual_motion[j]).dot(force)
-                + across.dot(weighs)
-                + pulled.dot(beside)
-                + axis.constant_cross(rigid).dot(momentum);
-            adjoint.direct[j] = -by_position;
-            let by_rate = weighs.dot(axis);
-            adjoint.direct[n + j] = by_rate.plus_times(across.dot(beside), -2.0);
-            let joint = adjoint.implied.len() - n + j;
-            adjoint.implied[joint] = beside.dot(axis);
-
-            let fixed = &of.fixed;
-            // What of these two reaches the base is of no use.
-            let mut forgotten = Force::zero();
-            fixed.hand_on(start, j, &mut of.passes.force, &mut forgotten);
-            fixed.hand_on(start, j, &mut adjoint.momentum, &mut forgotten);
-            fixed.hand_on(start, j, &mut adjoint.weight, &mut weight);
-            fixed.hand_on(
-                start,
-                j,
-                &mut adjoint.virtual_momentum,
-                &mut virtual_momentum,
-            );
-        }
-        weight.add_times(&base_velocity.cross_force(&virtual_momentum), -1.0);
-        let implied = weight.iter().chain(virtual_momentum.iter());
-        for (to, &from) in of.adjoint.implied.iter_mut().zip(implied) {
-            *to = from;
-        }
-        of.gather(start);
+        let angular = Sp::apply_constant(&fixed.inverse_inertia, &couple).times(-1.0);
+        let linear = Sp::cross_constant(&angular, &fixed.center).times(-1.0);
+        adjoint.rigid = Motion::new(angular, linear);
+        whole
     }
-}
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
-    /// Columns `start`.. of the lower triangle: the gradient's own derivatives, and those by what
-    /// the directions imply.
+    /// What each joint changes in the gradient.
     #[inline(always)]
-    fn gather(&mut self, start: usize) {
-        let width = self.tangents.len() * N;
-        for row in start..self.directions() {
-            let tangent = &self.tangents[row / N];
-            let place = row % N;
-            let mut sums = match self.adjoint.direct.get(row) {
-                Some(direct) => *direct,
-                None => Dual::constant(0.0),
+    fn grade(&mut self) {
+        let (fixed, adjoint) = (&self.fixed, &mut self.adjoint);
+        for (j, gradient) in adjoint.gradient.iter_mut().enumerate() {
+            let (axis, inertia) = (&fixed.axes[j], &fixed.carried[j]);
+            let (step, coriolis) = (&self.steps[j], &self.carried.coriolis[j]);
+            let (momentum, curvature) = (&adjoint.virtual_momentum[j], &adjoint.curvature[j]);
+            let bent = |change: &Motion<Sp, f64>| {
+                let linear = Sp::moment(&change.linear, &momentum.linear).times(2.0);
+                curvature.apply(&change.angular).plus(&linear)
             };
-            let implied = tangent.velocity.iter().chain(tangent.acceleration.iter());
-            for (by, &along) in self
-                .adjoint
-                .implied
-                .iter()
-                .zip(implied.chain(&tangent.joints))
-            {
-                sums = sums.plus_times(*by, along.gradient[place]);
+            let virtual_motion = adjoint.virtual_motion[j].cross(axis);
+            let rigid = adjoint.rigid.cross(axis);
+
+            let mut acceleration = inertia.momentum(&virtual_motion);
+            acceleration.add(&axis.cross_force(momentum));
+
+            let mut weight = inertia.momentum(&adjoint.rigid);
+            weight.angular = weight.angular.plus(&adjoint.weight[j]);
+            let mut velocity = axis.cross_force(&weight);
+            velocity.add(&inertia.momentum(&rigid));
+            let angular = coriolis.weight(&virtual_motion).plus(&bent(&step.velocity));
+            velocity.angular = velocity.angular.plus(&angular);
+
+            *gradient = JointGradient {
+                virtual_motion,
+                rigid,
+                acceleration,
+                velocity,
+                velocity_by_rate: bent(axis),
+            };
+        }
+        let n = self.joints;
+        for j in 0..n {
+            let own = &adjoint.gradient[j];
+            for k in fixed.path(j) {
+                let inner = &adjoint.gradient[k].virtual_motion;
+                adjoint.by_accelerations[k * n + j] = inner.dot(&self.steps[j].momentum[1]);
+                adjoint.by_accelerations[j * n + k] = own.acceleration.dot(&fixed.axes[k]);
             }
-            self.hessian[row * width + start..][..N].copy_from_slice(&sums.gradient);
+        }
+    }
+
+    /// Half of what directions imply for base and accelerations: rows weigh, columns imply.
+    #[inline(always)]
+    fn contract(&mut self, whole: &AngularMap<Sp>) {
+        let n = self.joints;
+        let width = self.tangents.len() * N;
+        for row in 0..self.directions() {
+            // What the base's own change brings is counted from both sides.
+            let mut along = Sp::Angular::<f64>::zero();
+            let from = &self.tangents[row / N].velocity.angular;
+            for (to, from) in along.components_mut().iter_mut().zip(from.components()) {
+                *to = 0.5 * from.gradient[row % N];
+            }
+            let turned = whole.apply(&along);
+            for (sweep, tangent) in self.tangents.iter().enumerate() {
+                let (velocity, acceleration) = (&tangent.velocity, &tangent.acceleration);
+                let mut sum: Dual<N, FUSED>;
+                if row < n {
+                    let own = &self.adjoint.gradient[row];
+                    let mut weight = own.velocity;
+                    weight.angular = weight.angular.plus(&turned);
+                    sum = velocity.dot(&weight) + acceleration.dot(&own.acceleration);
+                    let by = &self.adjoint.by_accelerations[row * n..(row + 1) * n];
+                    for (joint, &by) in tangent.joints.iter().zip(by) {
+                        sum = Times::<f64>::plus_times(sum, *joint, by);
+                    }
+                } else {
+                    let mut weight = turned;
+                    if let Some(own) = self.adjoint.gradient.get(row - n) {
+                        weight = weight.plus(&own.velocity_by_rate);
+                    }
+                    let turning = velocity.angular.components();
+                    sum = plus_inner(Dual::constant(0.0), turning, weight.components());
+                }
+                self.hessian[row * width + sweep * N..][..N].copy_from_slice(&sum.gradient);
+            }
+        }
+    }
+
+    /// Adds the other half, in which columns weigh and rows imply.
+    #[inline(always)]
+    fn mirror(&mut self) {
+        let width = self.tangents.len() * N;
+        for row in 0..self.directions() {
+            for column in 0..row {
+                self.hessian[row * width + column] += self.hessian[column * width + row];
+            }
+            self.hessian[row * width + row] *= 2.0;
+        }
+    }
+
+    /// Adds the second derivatives in the directions of two joints.
+    #[inline(always)]
+    fn join(&mut self) {
+        let n = self.joints;
+        let width = self.tangents.len() * N;
+        let hessian = &mut self.hessian;
+        for (j, outer) in self.adjoint.gradient.iter().enumerate() {
+            let own = &self.steps[j];
+            for k in self.fixed.path(j) {
+                let (inner, axis) = (&self.adjoint.gradient[k], &self.fixed.axes[k]);
+                let step = &self.steps[k];
+                let (shifted, rigid) = (&inner.virtual_motion, &inner.rigid);
+                let positions = shifted.dot(&own.force[0])
+                    + rigid.dot(&own.momentum[0])
+                    + step.acceleration[0].dot(&outer.acceleration)
+                    + step.velocity.dot(&outer.velocity);
+                let position_rate = shifted.dot(&own.force[1])
+                    + rigid.dot(&own.momentum[1])
+                    + step.velocity.angular.dot(&outer.velocity_by_rate);
+                let rates = axis.angular.dot(&outer.velocity_by_rate);
+                hessian[j * width + k] += positions;
+                hessian[(n + j) * width + k] += position_rate;
+                hessian[(n + j) * width + n + k] += rates;
+                if k != j {
+                    hessian[(n + k) * width + j] +=
+                        step.acceleration[1].dot(&outer.acceleration) + axis.dot(&outer.velocity);
+                }
+            }
         }
     }
 }

@@ -1,89 +1,151 @@
-//! Intermediate results of one sweep.
+//! Intermediate results at one point.
 
-use crate::autodiff::{Dual, Scalar};
-use crate::dynamics::algebra::{Algebra, Force, Motion};
+use crate::autodiff::Dual;
+use crate::dynamics::algebra::{Algebra, AngularMap, Coriolis, Force, Motion, Vector};
 
-/// Place of a direction in the sweep of `N` that starts at direction `start`.
-#[inline(always)]
-pub(super) fn in_sweep<const N: usize>(start: usize, direction: usize) -> Option<usize> {
-    direction.checked_sub(start).filter(|&place| place < N)
-}
-
-/// Base motion and accelerations with their derivatives in the directions of one sweep.
+/// How the motion of base and joints changes in the directions of one sweep.
 #[derive(Debug)]
 pub(super) struct Tangent<Sp: Algebra, const N: usize, const FUSED: bool> {
+    /// Of the base.
     pub velocity: Motion<Sp, Dual<N, FUSED>>,
+    /// The part of the bodies' accelerations that is common to all, Γ of [`JointStep`]; only its
+    /// derivatives are of meaning.
     pub acceleration: Motion<Sp, Dual<N, FUSED>>,
+    /// Of the joints' accelerations.
     pub joints: Vec<Dual<N, FUSED>>,
 }
 
-/// Motions and forces of the bodies.
+/// The free motion of every body, and sums over the bodies that each joint carries.
 #[derive(Debug)]
-pub(super) struct Passes<Sp: Algebra, S: Scalar> {
-    pub velocity: Vec<Motion<Sp, S>>,
-    pub acceleration: Vec<Motion<Sp, S>>,
-    pub force: Vec<Force<Sp, S>>,
-    pub residual: Vec<S>,
+pub(super) struct Carried<Sp: Algebra> {
+    pub velocity: Vec<Motion<Sp, f64>>,
+    pub acceleration: Vec<Motion<Sp, f64>>,
+    pub momentum: Vec<Force<Sp, f64>>,
+    pub force: Vec<Force<Sp, f64>>,
+    pub coriolis: Vec<Coriolis<Sp>>,
+    /// Of the whole robot.
+    pub whole: Coriolis<Sp>,
 }
 
-/// What the adjoint carries beside the motions and forces of the first pass.
-#[derive(Debug)]
-pub(super) struct Adjoint<Sp: Algebra, S: Scalar> {
-    /// Multipliers of the joints' residuals: rates of a virtual motion without momentum.
-    pub rates: Vec<f64>,
-    pub virtual_motion: Vec<Motion<Sp, S>>,
-    /// Its momentum.
-    pub virtual_momentum: Vec<Force<Sp, S>>,
-    /// axis × velocity.
-    pub across: Vec<Motion<Sp, S>>,
-    /// What the velocity of each body weighs.
-    pub weight: Vec<Force<Sp, S>>,
-    pub momentum: Vec<Force<Sp, S>>,
-    /// The motion whose momentum the base's own rate is weighted with.
-    pub rigid: Vec<Motion<Sp, S>>,
-    /// Gradient by θ and θ̇, then by base motion, base acceleration and joint accelerations.
-    pub direct: Vec<S>,
-    pub implied: Vec<S>,
-}
-
-impl<Sp: Algebra, S: Scalar> Adjoint<Sp, S> {
+impl<Sp: Algebra> Carried<Sp> {
     pub fn new(n: usize) -> Self {
-        let motions = vec![Motion::zero(); n];
-        let forces = vec![Force::zero(); n];
-        let components = 2 * (Sp::ANGLES + Sp::LENGTHS);
         Self {
-            rates: vec![0.0; n],
-            virtual_motion: motions.clone(),
-            virtual_momentum: forces.clone(),
-            across: motions.clone(),
-            weight: forces.clone(),
-            momentum: forces,
-            rigid: motions,
-            direct: vec![S::zero(); 2 * n],
-            implied: vec![S::zero(); components + n],
+            velocity: vec![Motion::zero(); n],
+            acceleration: vec![Motion::zero(); n],
+            momentum: vec![Force::zero(); n],
+            force: vec![Force::zero(); n],
+            coriolis: vec![Coriolis::zero(); n],
+            whole: Coriolis::zero(),
         }
     }
 }
 
-/// Momentum-free motions, of the controls and of the weights, and their momenta.
-#[derive(Debug)]
-pub(super) struct TorqueFields<Sp: Algebra, S: Scalar> {
-    pub motion: [Vec<Motion<Sp, S>>; 2],
-    pub momentum: [Vec<Force<Sp, S>>; 2],
-    /// Change of the base's motion of the controls, by sweeps.
-    pub base: Vec<Motion<Sp, S>>,
-    pub row: Vec<S>,
+/// What the position and the rate of one joint change in all the bodies that it carries.
+///
+/// As each body sees it, its velocity V changes by Φ and its acceleration by Γ − V × Φ, with Φ and
+/// Γ the same for all of them.
+#[derive(Debug, Clone)]
+pub(super) struct JointStep<Sp: Algebra> {
+    /// Φ by position; that by rate is the joint's axis S.
+    pub velocity: Motion<Sp, f64>,
+    /// Γ by position and by rate.
+    pub acceleration: [Motion<Sp, f64>; 2],
+    /// Change of their force by position and by rate, as the carrier sees it.
+    pub force: [Force<Sp, f64>; 2],
+    /// Change of their momentum by position and by rate, as the carrier sees it; that by rate, I·S,
+    /// is also what an acceleration Γ weighs in the joint's force.
+    pub momentum: [Force<Sp, f64>; 2],
+    /// What a change Φ weighs in the joint's force.
+    pub coriolis: Sp::Angular<f64>,
 }
 
-impl<Sp: Algebra, S: Scalar> TorqueFields<Sp, S> {
-    pub fn new(n: usize, sweeps: usize) -> Self {
-        let motions = || vec![Motion::zero(); n];
-        let forces = || vec![Force::zero(); n];
+impl<Sp: Algebra> JointStep<Sp> {
+    pub fn zero() -> Self {
         Self {
-            motion: [motions(), motions()],
-            momentum: [forces(), forces()],
-            base: vec![Motion::zero(); sweeps],
-            row: vec![S::zero(); n],
+            velocity: Motion::zero(),
+            acceleration: [Motion::zero(); 2],
+            force: [Force::zero(); 2],
+            momentum: [Force::zero(); 2],
+            coriolis: Sp::Angular::<f64>::zero(),
+        }
+    }
+}
+
+/// What the multipliers make of the motion.
+#[derive(Debug)]
+pub(super) struct Adjoint<Sp: Algebra> {
+    /// Multipliers of the joints' residuals: rates of a virtual motion without momentum.
+    pub rates: Vec<f64>,
+    /// The motion, rigid about the mass centre, whose momentum the base's own rate is weighted
+    /// with.
+    pub rigid: Motion<Sp, f64>,
+    pub virtual_motion: Vec<Motion<Sp, f64>>,
+    /// Sums over the bodies that each joint carries: momentum of the virtual motion, what a change
+    /// of their velocity weighs, and the matrix of how two such changes weigh together.
+    pub virtual_momentum: Vec<Force<Sp, f64>>,
+    pub weight: Vec<Sp::Angular<f64>>,
+    pub curvature: Vec<AngularMap<Sp>>,
+    pub gradient: Vec<JointGradient<Sp>>,
+    /// n×n: second derivatives by the position of the row's joint and the acceleration of the
+    /// column's; zero where neither joint carries the other.
+    pub by_accelerations: Vec<f64>,
+}
+
+/// How the change by one joint of the bodies that it carries changes the weights of further
+/// changes.
+#[derive(Debug, Clone)]
+pub(super) struct JointGradient<Sp: Algebra> {
+    /// Change of the virtual motion and of the rigid one by position.
+    pub virtual_motion: Motion<Sp, f64>,
+    pub rigid: Motion<Sp, f64>,
+    /// What Γ weighs, by position.
+    pub acceleration: Force<Sp, f64>,
+    /// What Φ weighs, by position and, its angular part alone, by rate.
+    pub velocity: Force<Sp, f64>,
+    pub velocity_by_rate: Sp::Angular<f64>,
+}
+
+impl<Sp: Algebra> Adjoint<Sp> {
+    pub fn new(n: usize) -> Self {
+        let gradient = JointGradient {
+            virtual_motion: Motion::zero(),
+            rigid: Motion::zero(),
+            acceleration: Force::zero(),
+            velocity: Force::zero(),
+            velocity_by_rate: Sp::Angular::<f64>::zero(),
+        };
+        Self {
+            rates: vec![0.0; n],
+            rigid: Motion::zero(),
+            virtual_motion: vec![Motion::zero(); n],
+            virtual_momentum: vec![Force::zero(); n],
+            weight: vec![Sp::Angular::<f64>::zero(); n],
+            curvature: vec![AngularMap::zero(); n],
+            gradient: vec![gradient; n],
+            by_accelerations: vec![0.0; n * n],
+        }
+    }
+}
+
+/// A motion without momentum, and its derivatives by the joint positions at fixed joint rates.
+#[derive(Debug)]
+pub(super) struct Field<Sp: Algebra> {
+    pub motion: Vec<Motion<Sp, f64>>,
+    /// Of the bodies that each joint carries.
+    pub momentum: Vec<Force<Sp, f64>>,
+    /// Change of the motion of those bodies as they see it, and of their momentum as the carrier
+    /// does, by the joint's position.
+    pub motion_by: Vec<Motion<Sp, f64>>,
+    pub momentum_by: Vec<Force<Sp, f64>>,
+}
+
+impl<Sp: Algebra> Field<Sp> {
+    pub fn new(n: usize) -> Self {
+        Self {
+            motion: vec![Motion::zero(); n],
+            momentum: vec![Force::zero(); n],
+            motion_by: vec![Motion::zero(); n],
+            momentum_by: vec![Force::zero(); n],
         }
     }
 }

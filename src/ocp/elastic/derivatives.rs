@@ -66,6 +66,18 @@ impl<'a, O: Ocp> ElasticDerivatives<'a, O> {
 }
 
 impl<O: Ocp> PointDerivatives for ElasticDerivatives<'_, O> {
+    fn kept(&self) -> usize {
+        self.inner.kept()
+    }
+
+    fn keep(&mut self, kept: &mut [f64]) {
+        self.inner.keep(kept);
+    }
+
+    fn recall(&mut self, kept: &[f64]) {
+        self.inner.recall(kept);
+    }
+
     fn jacobian(&mut self, point: Point<'_, f64>, jacobian: &mut [f64]) {
         self.inner.jacobian(self.inner(point), &mut self.first);
         jacobian.fill(0.0);
