@@ -196,14 +196,18 @@ mod tests {
         words
     }
 
-    /// Lines of code blocks that call the program.
+    /// Lines of code blocks that call the program; blocks in a language other than the shell's are none.
     fn commands(text: &str) -> Vec<&str> {
-        let mut inside = false;
+        let mut language = None;
         let mut found = Vec::new();
         for line in text.lines() {
-            if line.starts_with("```") {
-                inside = !inside;
+            if let Some(named) = line.strip_prefix("```") {
+                language = match language {
+                    None => Some(named),
+                    Some(_) => None,
+                };
             }
+            let inside = matches!(language, Some("" | "sh" | "console" | "text"));
             let line = line.strip_prefix("$ ").unwrap_or(line);
             let call = line.strip_prefix("ffsm-ipopt ");
             // With a number behind it, it is a version in what was printed.
