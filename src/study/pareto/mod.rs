@@ -243,8 +243,9 @@ impl<'a> ParetoFront<'a> {
         Ok(())
     }
 
-    /// A point between point `k` and the next: by the weights of the first, with the base's motion bounded
-    /// by the middle of both, from the motion of the second, which keeps that bound.
+    /// A point between point `k` and the next, with the base's motion bounded by the middle of both: the one
+    /// with less effort of two, from the motion of either. The base weighs as little as anywhere on the
+    /// front, so that the bound is what holds it.
     fn plan_bounded(
         &mut self,
         k: usize,
@@ -252,26 +253,41 @@ impl<'a> ParetoFront<'a> {
         left: usize,
         monitor: &mut Monitor<'_>,
     ) -> Result<ParetoPoint, PlanError> {
-        let [first, next] = [&self.points[k], &self.points[k + 1]];
-        let bound = 0.5 * (first.base + next.base);
-        let weight = first.factor;
+        let bound = 0.5 * (self.points[k].base + self.points[k + 1].base);
+        let weight = self.points[0].factor;
         let bounded = scaled(self.problem, weight)?.edited(|problem| {
             let own = &mut problem.limits.base_motion;
             *own = own.min(weight * bound);
         })?;
-        let problem = self.within_share(bounded, left)?;
-        let start = self.start(k + 1).map(|start| Start {
+        // The motion of the next point keeps the bound.
+        let mut best = self.plan_under(&bounded, (k + 1, factor), 2 * left, monitor)?;
+        if !self.is_over() {
+            let first = self.plan_under(&bounded, (k, factor), 2 * left, monitor)?;
+            if first.is_solved() && (!best.is_solved() || first.joints < best.joints) {
+                best = first;
+            }
+        }
+        best.bound = Some(bound);
+        Ok(best)
+    }
+
+    /// The point of `problem`, whose base motion is bounded, from the motion of point `from`.
+    fn plan_under(
+        &mut self,
+        problem: &Problem,
+        (from, factor): (usize, f64),
+        left: usize,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<ParetoPoint, PlanError> {
+        let problem = self.within_share(problem.clone(), left)?;
+        let start = self.start(from).map(|start| Start {
             iterate: None,
             ..start
         });
         let plan = self.plan_from(&problem, start, &mut |&event| {
             monitor(factor, &SearchEvent::of_plan(event))
         })?;
-        let point = self.point(factor, plan);
-        Ok(ParetoPoint {
-            bound: Some(bound),
-            ..point
-        })
+        Ok(self.point(factor, plan))
     }
 
     /// Hands motions to neighbours where they are better, down and up, until none is.
