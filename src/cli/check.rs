@@ -223,6 +223,14 @@ fn limits(lines: &mut Lines, problem: &Problem) {
     limits_on(lines, problem, ComponentKind::BaseAttitude);
     limits_on(lines, problem, ComponentKind::BaseRate);
     limits_on(lines, problem, ComponentKind::BasePosition);
+    let most = problem.limits.base_motion;
+    if most.is_finite() {
+        let label = format!("  {}", LimitId::BaseMotion.words());
+        lines.add(
+            &label,
+            format!("its terms of the cost together at most {most}"),
+        );
+    }
 }
 
 /// The limits that have one bound a component of that kind.

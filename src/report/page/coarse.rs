@@ -12,6 +12,15 @@ const GROWTH: f64 = 1.25;
 const OFFSET: f64 = 0.37;
 /// Cells along the longest edge of which no shape is left.
 const COARSEST: f64 = 3.0;
+/// Corners around each side of a box; bit i of a corner's number says which end of axis i it is at.
+pub(super) const SIDES: [[u32; 4]; 6] = [
+    [0, 1, 3, 2],
+    [4, 5, 7, 6],
+    [0, 1, 5, 4],
+    [2, 3, 7, 6],
+    [0, 2, 6, 4],
+    [1, 3, 7, 5],
+];
 
 /// The surface in at most `most` triangles; its bounding box where no fewer make the shape.
 pub(super) fn coarse(surface: &Surface, most: usize) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
@@ -96,15 +105,7 @@ fn used(vertices: Vec<[f64; 3]>, mut triangles: Vec<[u32; 3]>) -> (Vec<[f64; 3]>
 
 fn cuboid(low: [f64; 3], high: [f64; 3]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let corner = |bits: usize| std::array::from_fn(|i| [low[i], high[i]][(bits >> i) & 1]);
-    let sides = [
-        [0, 1, 3, 2],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 3, 7, 5],
-    ];
-    let halves = sides
+    let halves = SIDES
         .iter()
         .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
     ((0..8).map(corner).collect(), halves.collect())

@@ -1,6 +1,6 @@
 //! What the robot's file draws of its bodies, as faces.
 
-use super::coarse::{bounds, coarse};
+use super::coarse::{SIDES, bounds, coarse};
 use crate::config::{Drawing, Drawn, Form, Surface};
 use crate::dynamics::MOST_LENGTH;
 use nalgebra::Vector3;
@@ -183,15 +183,7 @@ type Faces = (Vec<[f64; 3]>, Vec<Vec<u32>>);
 
 fn cuboid(half: [f64; 3]) -> Faces {
     let corner = |bits: u32| std::array::from_fn(|i| [-half[i], half[i]][(bits >> i & 1) as usize]);
-    let faces = [
-        [0, 1, 3, 2],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 3, 7, 5],
-    ];
-    ((0..8).map(corner).collect(), faces.map(Vec::from).into())
+    ((0..8).map(corner).collect(), SIDES.map(Vec::from).into())
 }
 
 /// As a prism.
