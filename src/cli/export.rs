@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Format::Parquet => {
             let folder = OutputFolder::create(&folder)?;
             let bytes = parquet(&columns(&samples), &saved.solution).map_err(failed(path))?;
-            files.add_bytes(&folder, "motion.parquet", &bytes);
+            files.add_bytes(&folder, "motion.parquet", bytes);
         }
         Format::JointTrajectory => {
             let folder = OutputFolder::create(&folder)?;

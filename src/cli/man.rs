@@ -53,6 +53,6 @@ fn add(
             path: name.into(),
             message: error.to_string(),
         })?;
-    set.add_bytes(folder, &format!("{name}.1"), &page);
+    set.add_bytes(folder, format!("{name}.1"), page);
     Ok(())
 }

@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         _ => files.add_bytes(
             &folder,
             name,
-            &parquet(&columns, &saved.solution).map_err(failed)?,
+            parquet(&columns, &saved.solution).map_err(failed)?,
         ),
     }
     let mut lines = Lines::default();

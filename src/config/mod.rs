@@ -50,7 +50,7 @@ pub use platform::PlatformFile;
 pub use problem::ProblemFile;
 pub use robot_file::RobotFile;
 pub use starter::{Starter, StarterJoint};
-pub use surface::Surface;
+pub use surface::{Surface, SurfaceCopies, SurfaceCopy};
 pub use trust::{trust_options, trusts_options};
 
 use document::Value;

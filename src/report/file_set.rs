@@ -47,9 +47,8 @@ impl FileSet {
     }
 
     /// Adds bytes as they are.
-    pub fn add_bytes(&mut self, folder: &OutputFolder, name: &str, bytes: &[u8]) {
-        self.files
-            .push((folder.path().join(name), Some(bytes.to_vec())));
+    pub fn add_bytes(&mut self, folder: &OutputFolder, name: impl AsRef<Path>, bytes: Vec<u8>) {
+        self.files.push((folder.path().join(name), Some(bytes)));
     }
 
     /// Adds a figure as `name.svg` and `name.png`.

@@ -19,4 +19,5 @@ mod report;
 mod saved;
 mod schema;
 mod settings;
+mod surfaces;
 mod usage;

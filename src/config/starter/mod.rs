@@ -5,7 +5,10 @@ mod choice;
 mod posture;
 mod text;
 
+use super::appearance::Appearance;
 use super::robot::Outline;
+use super::robot_file::RobotFile;
+use super::surface::{SurfaceCopies, copies};
 use super::{ConfigError, ProblemFile};
 use crate::dynamics::{JointKind, JointLimits};
 use choice::Choice;
@@ -34,6 +37,9 @@ pub struct Starter {
     pub is_planar: bool,
     /// What is changed of the robot, a line each.
     pub repairs: Vec<String>,
+    appearance: Appearance,
+    /// The robot's file where it was read.
+    source: RobotFile,
 }
 
 /// A joint of the robot.
@@ -69,7 +75,7 @@ impl Starter {
                 let problem = text::problem(&outline, &choice, &remedies, &ends, file);
                 let robot = (file, outline.text.as_str());
                 match ProblemFile::restore(("problem.toml", &problem), robot, &[]) {
-                    Ok(read) => return Ok(Self::new(outline, choice, problem, read)),
+                    Ok(read) => return Ok(Self::new(path, outline, choice, read)),
                     // What nothing but a change of the file mends.
                     Err(error) => last = Some(error),
                 }
@@ -78,7 +84,13 @@ impl Starter {
         Err(last.expect("one try at least"))
     }
 
-    fn new(outline: Outline, choice: Choice, problem: String, read: ProblemFile) -> Self {
+    /// The surfaces that the page of a plan draws of this robot. A copy of its file needs them too.
+    pub fn surfaces(&self) -> SurfaceCopies {
+        let drawing = self.appearance.drawing(&self.source);
+        copies(Path::new(&self.source.path), &drawing)
+    }
+
+    fn new(path: &Path, outline: Outline, choice: Choice, read: ProblemFile) -> Self {
         let joints = outline.joints.into_iter().zip(&choice.locked);
         let joints = joints.map(|(joint, &locked)| StarterJoint {
             name: joint.name,
@@ -88,9 +100,14 @@ impl Starter {
             locked,
         });
         Self {
-            problem,
+            problem: read.text,
             robot: outline.name,
             joints: joints.collect(),
+            source: RobotFile {
+                path: path.display().to_string(),
+                text: outline.text,
+            },
+            appearance: read.appearance,
             links: outline.links.into_iter().map(|(name, _)| name).collect(),
             base: (outline.root, choice.spacecraft),
             end_effector: choice.end_effector,

@@ -1,11 +1,31 @@
 //! Where a file is that a URDF names: in the URDF's own folder, or in the package the URDF belongs to.
 
-use std::path::{Path, PathBuf};
+use crate::config::files::without_parents;
+use std::path::{Component, Path, PathBuf};
 
 /// Folders above a URDF that are searched for its package.
 const MOST_ABOVE: usize = 8;
 /// What says that a folder is a package.
 const PACKAGE: &str = "package.xml";
+/// What the names of files in packages begin with.
+const SCHEMES: [&str; 2] = ["package://", "model://"];
+
+/// Where the file `name` of a URDF lies beside a copy of the URDF, below its folder; `None` for a name
+/// that holds in one place alone.
+pub(super) fn beside(name: &str) -> Option<PathBuf> {
+    let mut schemes = SCHEMES.iter().chain(&["file://"]);
+    let rest = schemes.find_map(|scheme| name.strip_prefix(scheme));
+    let path = Path::new(rest.unwrap_or(name));
+    if path.is_absolute() {
+        return None;
+    }
+    let plain = without_parents(path);
+    let parts = plain.components();
+    let below: PathBuf = parts
+        .filter(|part| matches!(part, Component::Normal(_)))
+        .collect();
+    below.file_name().is_some().then_some(below)
+}
 
 /// The file `name` of the URDF at `urdf`, links followed.
 pub(super) fn file(urdf: &Path, name: &str) -> Result<PathBuf, String> {
@@ -16,10 +36,9 @@ pub(super) fn file(urdf: &Path, name: &str) -> Result<PathBuf, String> {
     };
     let is_package = |path: &&Path| path.join(PACKAGE).is_file();
     let above = || folder.ancestors().take(MOST_ABOVE);
-    let scheme = ["package://", "model://"];
-    let in_package = scheme.iter().find_map(|scheme| name.strip_prefix(scheme));
+    let in_package = SCHEMES.iter().find_map(|scheme| name.strip_prefix(scheme));
     // Folders to stay in, and the file in each.
-    let places: Vec<(PathBuf, PathBuf)> = match in_package {
+    let mut places: Vec<(PathBuf, PathBuf)> = match in_package {
         Some(rest) => {
             let (package, rest) = rest.split_once('/').ok_or("expected package://NAME/PATH")?;
             let named = |path: &&Path| path.file_name().is_some_and(|name| name == package);
@@ -35,6 +54,7 @@ pub(super) fn file(urdf: &Path, name: &str) -> Result<PathBuf, String> {
             vec![(root.to_path_buf(), folder.join(path))]
         }
     };
+    places.extend(beside(name).map(|path| (folder.clone(), folder.join(path))));
     let mut why = None;
     for (root, path) in places {
         match path.canonicalize() {

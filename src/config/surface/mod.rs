@@ -2,6 +2,7 @@
 //! to be a regular file of a sane size in the folder or package of the robot's, and nothing in it is
 //! taken on trust.
 
+mod copy;
 mod dae;
 mod locate;
 mod obj;
@@ -14,6 +15,9 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+pub(super) use copy::copies;
+pub use copy::{SurfaceCopies, SurfaceCopy};
 
 /// Largest file, bytes.
 const LARGEST: u64 = 64 << 20;
