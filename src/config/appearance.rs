@@ -28,6 +28,8 @@ pub struct Part {
     pub placement: Placement,
     /// What it is.
     pub form: Form,
+    /// Red, green and blue, from 0 to 1, where the file gives it a colour.
+    pub colour: Option<[f64; 3]>,
     /// Whether it says what the link fills, not what it looks like.
     pub is_collision: bool,
 }

@@ -24,6 +24,19 @@ const blue = (page) => page.evaluate(() => {
   return { links, base };
 });
 
+// How many have the orange of the panels, in any light.
+const orange = (page) => page.evaluate(() => {
+  const canvas = document.querySelector(".stage canvas");
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let count = 0;
+  for (let k = 0; k < data.length; k += 4) {
+    const [red, green, blue, opaque] = data.subarray(k, k + 4);
+    // Joints are yellower, paths redder.
+    if (opaque > 200 && blue > 15 && green > 0.58 * red && green < 0.72 * red && blue < 0.4 * red) count += 1;
+  }
+  return count;
+});
+
 test("solids stand where the solution has their bodies", async () => {
   const { page, faults, close } = await open(browser, "shaped");
   const { motions: [{ frames, poses }], solids, joints } =
@@ -56,6 +69,17 @@ test("base and links are seen from every side", async () => {
   }
   assert.deepEqual(faults, []);
   await close();
+});
+
+test("what the file gives a colour has it", async () => {
+  for (const [name, least] of [["shaped", 2000], ["chaser-7dof", 0]]) {
+    const { page, faults, close } = await open(browser, name);
+    await page.getByRole("button", { name: "top", exact: true }).click();
+    const count = await orange(page);
+    assert.ok(least ? count > least : count < 50, `${name}: ${count}`);
+    assert.deepEqual(faults, []);
+    await close();
+  }
 });
 
 test("the page says how the robot is drawn", async () => {

@@ -6,6 +6,7 @@ mod program;
 mod as_written;
 mod bodies;
 mod collisions;
+mod colours;
 mod exported;
 mod faults;
 mod refused_files;

@@ -8,5 +8,6 @@ use crate::dynamics::Placement;
 pub(super) struct Look {
     pub placement: Placement,
     pub form: Form,
+    pub colour: Option<[f64; 3]>,
     pub is_collision: bool,
 }

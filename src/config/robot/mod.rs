@@ -95,6 +95,7 @@ impl Robot {
                 joint,
                 placement: frame.then(&look.placement),
                 form: look.form.clone(),
+                colour: look.colour,
                 is_collision: look.is_collision,
             };
             Some(looks.iter().map(part))

@@ -27,6 +27,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Surface, String> {
             geometries.insert(id, triangles(mesh)?);
         }
     }
+    let named: HashMap<_, _> = descendants(root, "node")
+        .filter_map(|node| Some((node.attribute("id")?, node)))
+        .collect();
     let mut surface = Surface::default();
     let mut open: Vec<(Node<'_, '_>, Matrix4<f64>)> = descendants(root, "visual_scene")
         .take(1)
@@ -42,9 +45,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Surface, String> {
         for held in node.children() {
             match held.tag_name().name() {
                 "node" => open.push((held, pose)),
+                // One of the library, which may hold itself: the number of nodes ends that.
+                "instance_node" => {
+                    open.extend(target(held).and_then(|id| Some((*named.get(id)?, pose))))
+                }
                 "instance_geometry" => {
-                    let url = held.attribute("url").and_then(|url| url.strip_prefix('#'));
-                    let corners = url.and_then(|id| geometries.get(id));
+                    let corners = target(held).and_then(|id| geometries.get(id));
                     add(&mut surface, corners.map_or(&[], Vec::as_slice), &pose)?;
                 }
                 _ => {}
@@ -57,6 +63,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Surface, String> {
 fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
     node.children()
         .find(|child| child.tag_name().name() == name)
+}
+
+/// What an instance is one of, if it is in the same file.
+fn target<'a>(instance: Node<'a, '_>) -> Option<&'a str> {
+    instance.attribute("url")?.strip_prefix('#')
 }
 
 fn descendants<'a, 'input>(

@@ -57,6 +57,30 @@ const SCENE: &str = r##"<?xml version="1.0" encoding="utf-8"?>
 </COLLADA>"##;
 
 #[test]
+fn dae_has_nodes_that_stand_for_others() {
+    let place = "<instance_geometry url=\"#plate\"/>";
+    let library = format!(
+        "<library_nodes><node id=\"pair\"><node>{place}</node><node><translate>0 0 5</translate>{place}</node>\
+         </node></library_nodes><library_visual_scenes>"
+    );
+    let instance = "<instance_node url=\"#pair\"/>";
+    let text = SCENE.replace(place, instance);
+    let whole = text.replace("<library_visual_scenes>", &library);
+    let found = dae::parse(whole.as_bytes()).unwrap();
+    assert_eq!(found.triangles.len(), 8);
+    let heights = found
+        .vertices
+        .iter()
+        .filter(|at| (at[2] - 0.05).abs() < 1e-12);
+    assert_eq!(heights.count(), 12);
+    // One that is not there, and one that holds itself.
+    assert!(dae::parse(text.as_bytes()).unwrap().triangles.is_empty());
+    let endless = whole.replace(&format!("<node>{place}</node>"), instance);
+    let error = dae::parse(endless.as_bytes()).unwrap_err();
+    assert!(error.contains("at most 100000 nodes"), "{error}");
+}
+
+#[test]
 fn dae_is_read_with_its_units_and_nodes() {
     let found = dae::parse(SCENE.as_bytes()).unwrap();
     assert_eq!((found.vertices.len(), found.triangles.len()), (12, 4));

@@ -45,7 +45,7 @@ function facesOf(scene, motion, at, place, scale, pen, colours) {
   const poses = posesAt(motion, at);
   return scene.solids.flatMap((solid) => {
     const points = place(poses[solid.body](solid.points));
-    const colour = solid.of_base ? colours.base : colours.link;
+    const colour = solid.colour ?? (solid.of_base ? colours.base : colours.link);
     return solid.faces.map((face) => {
       const [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = [0, 1, 2].map((k) => points[face[k]]);
       // Two corners of a face may be one.

@@ -43,6 +43,8 @@ pub(super) struct Faceted {
     of_base: bool,
     /// Whether its faces are flat with edges to be seen.
     has_edges: bool,
+    /// Its own colour, `#rrggbb`; `None` for that of all bases or links.
+    colour: Option<String>,
     /// Coordinates of its vertices in the axes of the body, m.
     points: Vec<f64>,
     /// Numbers of vertices, face by face.
@@ -83,6 +85,7 @@ impl Solids {
                 body: place.unwrap_or(0),
                 of_base: body == 0,
                 has_edges: matches!(drawn.part.form, Form::Box(_)),
+                colour: drawn.part.colour.map(shown),
                 points: rounded(&vertices),
                 faces,
             });
@@ -165,6 +168,13 @@ impl Solids {
             false => (Vec::new(), Vec::new()),
         }
     }
+}
+
+/// A colour that is seen on white and on black paper.
+fn shown(colour: [f64; 3]) -> String {
+    let channel = |part: f64| (255.0 * part.clamp(0.12, 0.8)).round() as u8;
+    let [red, green, blue] = colour.map(channel);
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 fn rounded(vertices: &[Vector3<f64>]) -> Vec<f64> {

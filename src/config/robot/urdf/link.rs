@@ -1,6 +1,7 @@
 //! `<link>`: a name, its `<inertial>`, what it fills and what it looks like.
 
 use super::element::{Attribute, Element};
+use super::material::Materials;
 use super::{collision, origin, visual};
 use crate::config::faults::Faults;
 use crate::config::figures::{Figures, Unusable, last_digit};
@@ -37,7 +38,7 @@ impl Link {
 /// Reads a link, changed as `bodies` say; `None` for one without a name, which is a fault.
 pub(super) fn read(
     element: &Element<'_, '_>,
-    bodies: &Bodies,
+    (bodies, materials): (&Bodies, &Materials<'_>),
     faults: &mut Faults,
 ) -> Option<Link> {
     let name = faults.keep(element.name("name"))?;
@@ -55,7 +56,7 @@ pub(super) fn read(
         inertia,
         has_inertial,
         collisions: parts.iter().map(collision::read).collect(),
-        looks: visual::read(element),
+        looks: visual::read(element, materials),
     })
 }
 

@@ -5,6 +5,7 @@ mod collision;
 mod element;
 mod joint;
 mod link;
+mod material;
 mod tree;
 mod visual;
 mod xml;
@@ -18,6 +19,7 @@ use crate::dynamics::{self, Body, Inertia, MOST_LENGTH, Placement};
 use element::{Element, Source};
 use joint::{Joint, Motion};
 use link::Link;
+use material::Materials;
 use roxmltree::Node;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -47,8 +49,9 @@ pub(super) fn read(
     refuse_xacro(&source, root)?;
     let tops = |tag| element::children(root, tag).map(|node| Element::top(&source, node));
     let mut faults = Faults::default();
+    let materials = Materials::of(root);
     let links: Vec<_> = tops("link")
-        .map(|e| link::read(&e, bodies, &mut faults))
+        .map(|e| link::read(&e, (bodies, &materials), &mut faults))
         .collect();
     let joints: Vec<_> = tops("joint")
         .map(|e| joint::read(&e, &mut faults))

@@ -2,19 +2,21 @@
 //! understood is left out.
 
 use super::element::Element;
+use super::material::Materials;
 use super::origin;
 use crate::config::appearance::Form;
 use crate::config::robot::look::Look;
 use crate::dynamics::MOST_LENGTH;
 
 /// All parts of a link.
-pub(super) fn read(link: &Element<'_, '_>) -> Vec<Look> {
+pub(super) fn read(link: &Element<'_, '_>, materials: &Materials<'_>) -> Vec<Look> {
     let of = |tag: &str, is_collision| {
         let looks = link.children(tag).into_iter();
         let look = move |element: Element<'_, '_>| {
             Some(Look {
                 placement: origin(&element).ok()?,
                 form: form(&element)?,
+                colour: materials.colour(&element),
                 is_collision,
             })
         };
