@@ -6,6 +6,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tool="mdbook 0.5.4"
 home=$PWD/target/book-tools
 if [ "$(cat "$home/installed.txt" 2>/dev/null)" != "$tool" ]; then
+  if ! cargo info --quiet "mdbook@${tool#* }" >/dev/null 2>&1; then
+    echo "error: $tool is not in target/book-tools, and the registry of crates is out of reach" >&2
+    exit 69 # that of a service out of reach, told from a book that is wrong
+  fi
   cargo install --quiet --locked --no-default-features --features search --root "$home" "mdbook@${tool#* }"
   # Last, because it says that all the rest is there.
   echo "$tool" >"$home/installed.txt"
