@@ -61,7 +61,7 @@ def test_keyframes_are_the_plan(command, smooth_folder):
         assert model.key_ctrl[key] == pytest.approx(motion["joint_torque"][row], abs=1e-12)
 
 
-@pytest.mark.parametrize("rate", [[], ["--rate", "50"]], ids=["nodes", "even"])
+@pytest.mark.parametrize("rate", [[], ["--rate", "50"], ["--effort"]], ids=["nodes", "even", "effort"])
 def test_messages_are_those_of_ros(command, smooth_folder, rate):
     import yaml
     from rosbags.typesys import Stores, get_typestore
@@ -98,7 +98,11 @@ def test_messages_are_those_of_ros(command, smooth_folder, rate):
     times = [p.time_from_start.sec + 1e-9 * p.time_from_start.nanosec for p in read.points]
     assert np.all(np.diff(times) > 0)
     assert times[-1] == pytest.approx(solution["trajectory"]["t"][-1], abs=1e-9)
-    assert len(times) == (1001 if rate else len(solution["trajectory"]["t"]))
+    assert len(times) == (1001 if "--rate" in rate else len(solution["trajectory"]["t"]))
+    # joint_trajectory_controller refuses a motion that does not end at rest, and efforts unless it commands them.
+    assert np.all(np.abs(read.points[-1].velocities) <= np.finfo(np.float32).eps)
+    efforts = solution["trajectory"]["joint_torque"][-1] if "--effort" in rate else []
+    assert read.points[-1].effort == pytest.approx(efforts, abs=1e-12)
     assert read.points[-1].positions == pytest.approx(solution["trajectory"]["joint_position"][-1], abs=1e-12)
 
 

@@ -29,6 +29,9 @@ pub(super) struct Arguments {
     /// Rows a second, instead of the nodes of the plan
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     rate: Option<f64>,
+    /// Torques in messages of ROS 2 too, for controllers that command efforts; others refuse them
+    #[arg(long)]
+    effort: bool,
     /// Folder to write to [default: that of the solution]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -50,6 +53,10 @@ enum Format {
 /// Reads, samples, writes.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let path = &arguments.solution;
+    if arguments.effort && arguments.format != Format::JointTrajectory {
+        let message = "--effort: expected with --format joint-trajectory alone";
+        return Err(Failure::Usage(message.into()));
+    }
     let saved = read(path)?;
     let samples = samples(arguments, &saved)?;
     let folder = match &arguments.out {
@@ -76,9 +83,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             files.add(
                 &folder,
                 "joint_trajectory.yaml",
-                &joint_trajectory(&samples),
+                &joint_trajectory(&samples, arguments.effort),
             );
-            let goal = follow_joint_trajectory(&samples);
+            let goal = follow_joint_trajectory(&samples, arguments.effort);
             files.add(&folder, "follow_joint_trajectory.yaml", &goal);
         }
         Format::Mujoco => {

@@ -130,6 +130,43 @@ fn a_plan_is_sampled_as_it_is_made() {
     }
 }
 
+/// What `joint_trajectory_controller` asks of a trajectory before it follows it.
+#[test]
+fn trajectories_are_such_as_controllers_take() {
+    let folder = planned();
+    let export = ["export", "solution.json", "--format", "joint-trajectory"];
+    for rate in [&[][..], &["--rate", "30"]] {
+        let run = folder.run(&[&export[..], rate].concat());
+        assert_eq!(run.code, 0, "{run:?}");
+        let text = folder.read("follow_joint_trajectory.yaml");
+        let values = |line: &str| -> Vec<f64> {
+            serde_json::from_str(line.split_once(": ").unwrap().1).unwrap()
+        };
+        let all = |key: &str| -> Vec<Vec<f64>> {
+            let lines = text.lines().filter(|line| line.contains(key));
+            lines.map(values).collect()
+        };
+        let rates = all(" velocities: ");
+        assert!(rates.len() > 10 && rates.iter().flatten().any(|rate| rate.abs() > 0.01));
+        let rest = f64::from(f32::EPSILON);
+        assert!(rates.last().unwrap().iter().all(|rate| rate.abs() <= rest));
+        assert!(all(" effort: ").iter().all(Vec::is_empty));
+    }
+    let run = folder.run(&[&export[..], &["--effort"]].concat());
+    assert_eq!(run.code, 0, "{run:?}");
+    let text = folder.read("joint_trajectory.yaml");
+    let efforts = text.lines().filter(|line| line.contains(" effort: "));
+    assert!(efforts.clone().all(|line| line.contains(", ")) && efforts.count() > 10);
+    let run = folder.run(&["export", "solution.json", "--format", "csv", "--effort"]);
+    assert_eq!(
+        (run.code, run.stderr.as_str()),
+        (
+            2,
+            "--effort: expected with --format joint-trajectory alone\n"
+        )
+    );
+}
+
 #[test]
 fn every_format_is_written() {
     let folder = planned();

@@ -6,27 +6,28 @@ use std::fmt::Write;
 /// Nanoseconds a second.
 const NANOSECONDS: f64 = 1e9;
 
-/// A `trajectory_msgs/msg/JointTrajectory`: positions, velocities, accelerations and efforts of all joints.
-/// Times begin at 0; instants within a nanosecond are one.
-pub fn joint_trajectory(samples: &Samples) -> String {
+/// A `trajectory_msgs/msg/JointTrajectory`: positions, velocities and accelerations of all joints, and
+/// their efforts if `has_effort`: `joint_trajectory_controller` refuses a trajectory with efforts unless it
+/// commands these. Times begin at 0; instants within a nanosecond are one.
+pub fn joint_trajectory(samples: &Samples, has_effort: bool) -> String {
     let mut text = String::from("# trajectory_msgs/msg/JointTrajectory\n");
-    message(samples, "", &mut text);
+    message((samples, has_effort), "", &mut text);
     text
 }
 
 /// A goal of `control_msgs/action/FollowJointTrajectory`, with the tolerances that the controller is
-/// configured with.
-pub fn follow_joint_trajectory(samples: &Samples) -> String {
+/// configured with; `has_effort` as of [`joint_trajectory`].
+pub fn follow_joint_trajectory(samples: &Samples, has_effort: bool) -> String {
     let mut text =
         String::from("# control_msgs/action/FollowJointTrajectory, the goal\ntrajectory:\n");
-    message(samples, "  ", &mut text);
+    message((samples, has_effort), "  ", &mut text);
     text.push_str(
         "path_tolerance: []\ngoal_tolerance: []\ngoal_time_tolerance: {sec: 0, nanosec: 0}\n",
     );
     text
 }
 
-fn message(samples: &Samples, indent: &str, text: &mut String) {
+fn message((samples, has_effort): (&Samples, bool), indent: &str, text: &mut String) {
     let names: Vec<String> = samples.joints.iter().map(|name| quoted(name)).collect();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -43,14 +44,17 @@ fn message(samples: &Samples, indent: &str, text: &mut String) {
             continue;
         }
         last = Some(nanoseconds);
+        let effort = match has_effort {
+            true => list(&samples.joint_torque[k]),
+            false => "[]".into(),
+        };
         let _ = writeln!(
             text,
             "{indent}- positions: {}\n{indent}  velocities: {}\n{indent}  accelerations: {}\n\
-             {indent}  effort: {}\n{indent}  time_from_start: {{sec: {}, nanosec: {}}}",
+             {indent}  effort: {effort}\n{indent}  time_from_start: {{sec: {}, nanosec: {}}}",
             list(&samples.joint_position[k]),
             list(&samples.joint_velocity[k]),
             list(&samples.joint_acceleration[k]),
-            list(&samples.joint_torque[k]),
             nanoseconds / 1_000_000_000,
             nanoseconds % 1_000_000_000
         );
