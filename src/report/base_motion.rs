@@ -21,11 +21,15 @@ pub(super) fn beside(found: &Baselines) -> Vec<(&'static str, String)> {
 /// A sentence where planning gained little over the straight joint path.
 pub(super) fn remark(planned: BaseMotion, found: &Baselines) -> Option<String> {
     let straight = found.straight?;
-    let helps = "cost.preset = \"still\", or a weight on cost.peak_base_attitude, asks for less";
+    let helps = "cost.preset = \"still\", a weight on cost.peak_base_attitude, or --search may turn it less";
     match Gain::of(planned, straight) {
         Gain::Needless | Gain::Clear => None,
         Gain::Little => Some(format!(
-            "the base turns hardly less than along the straight joint path, {} against {}; {helps}",
+            "the base turns {} less than along the straight joint path, {} against {}; {helps}",
+            match planned.largest < straight.largest {
+                true => "hardly",
+                false => "no",
+            },
             degrees(planned.largest),
             degrees(straight.largest)
         )),
@@ -35,5 +39,27 @@ pub(super) fn remark(planned: BaseMotion, found: &Baselines) -> Option<String> {
             degrees(planned.largest),
             degrees(straight.largest)
         )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plan_that_turns_the_base_as_far_is_not_said_to_turn_it_less() {
+        let motion = |largest| BaseMotion {
+            largest,
+            last: largest,
+        };
+        let straight = Baselines {
+            straight: Some(motion(0.5)),
+            ..Baselines::default()
+        };
+        let said = |largest| remark(motion(largest), &straight).unwrap_or_default();
+        assert!(said(0.49).contains("turns hardly less than along"));
+        assert!(said(0.5).contains("turns no less than along"));
+        assert!(said(0.6).contains("turns no less than along"));
+        assert_eq!(said(0.1), "");
     }
 }

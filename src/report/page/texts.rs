@@ -123,7 +123,7 @@ fn without_planning(solution: &Solution, baselines: &Baselines) -> String {
 
 /// What the cost is the cost of where no plan is, and its terms where there are several.
 fn terms(solution: &Solution) -> String {
-    let term = |term: &CostTerm| format!("{:.4e} for {}", term.value, term.formula);
+    let term = |term: &CostTerm| format!("{} for {}", digits(term.value, 4, 4), term.formula);
     let of = (solution.status == Status::Infeasible).then(|| OF_RELAXED.to_string());
     let terms = match &solution.cost_terms[..] {
         [] | [_] => None,
@@ -160,8 +160,8 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
             "between the nodes",
             if last.max_violation > 0.0 {
                 format!(
-                    "limits exceeded by {:.1e} of their size",
-                    last.max_violation
+                    "limits exceeded by {} of their size",
+                    gap(last.max_violation)
                 )
             } else if last.max_violation.is_nan() {
                 "a limit is not a number".into()
@@ -176,7 +176,7 @@ pub(super) fn evidence(solution: &Solution, problem: &Problem) -> Vec<Fact> {
         None => facts.push(Fact::new(
             "re-integration",
             "none".into(),
-            "this motion was not integrated again with the full equations; `verify` does that",
+            "this motion was not integrated again with the full equations; ffsm-ipopt verify does that",
         )),
     }
     for goal in &solution.goals {
