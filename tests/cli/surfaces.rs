@@ -167,7 +167,7 @@ fn surfaces_do_not_follow_links_out_of_the_new_folder() {
         run.stderr,
         "mine/meshes: is there already and stays as it is; expected a folder without it\n"
     );
-    assert_eq!(below(&folder, "other"), [PathBuf::new(); 0]);
+    assert!(below(&folder, "other").is_empty());
     assert!(!folder.path().join("mine/problem.toml").exists());
 }
 
