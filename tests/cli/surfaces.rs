@@ -180,3 +180,24 @@ fn surfaces_that_are_in_their_place_already_stay() {
     let run = folder.run(&["init", "arm/robot", "--urdf", "arm/robot/arm.urdf"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run:?}");
 }
+
+#[test]
+fn no_more_surfaces_are_copied_than_can_be_drawn() {
+    let mesh =
+        |k: usize| format!("<visual><geometry><mesh filename=\"{k}.stl\"/></geometry></visual>");
+    let many: String = (0..310).map(mesh).collect();
+    let upper = "<link name=\"upper\">";
+    let text = edited(URDF, upper, &format!("{upper}{many}"));
+    let folder = folder(&text);
+    for k in 0..310 {
+        let path = folder.path().join(format!("arm/robot/{k}.stl"));
+        fs::write(path, SLEEVE).unwrap();
+    }
+    let run = folder.run(&["init", "mine", "--urdf", "arm/robot/arm.urdf"]);
+    assert_eq!(run.code, 0, "{run:?}");
+    assert!(run.stdout.contains("surfaces copied     300, "), "{run:?}");
+    let expected = "link 'upper': 300.stl: expected at most 300 files";
+    assert!(run.stderr.contains(expected), "{run:?}");
+    assert!(run.stderr.lines().count() < 10, "{run:?}");
+    assert_eq!(below(&folder, "mine").len(), 302);
+}

@@ -3,8 +3,11 @@
 use super::{LARGEST, locate};
 use crate::config::appearance::{Drawing, Form};
 use crate::config::regular;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
+
+/// Most files of a robot: the page draws no more parts than that.
+const MOST_FILES: usize = 300;
 
 /// Surfaces that go with a copy of a URDF.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -34,11 +37,14 @@ pub(in crate::config) fn copies(urdf: &Path, drawing: &Drawing) -> SurfaceCopies
         complaints: drawing.complaints.clone(),
         ..SurfaceCopies::default()
     };
-    let mut taken = HashMap::new();
+    let (mut seen, mut taken) = (HashSet::new(), HashMap::new());
     for drawn in &drawing.parts {
         let Form::File { name, .. } = &drawn.part.form else {
             continue;
         };
+        if !seen.insert(name) {
+            continue;
+        }
         match copy(urdf, name, &mut taken) {
             Ok(copy) => found.files.extend(copy),
             Err(why) => {
@@ -68,6 +74,9 @@ fn copy(
                 "another file goes to its place, {}",
                 place.display()
             ));
+        }
+        None if taken.len() == MOST_FILES => {
+            return Err(format!("expected at most {MOST_FILES} files"));
         }
         None => {}
     }
