@@ -21,7 +21,8 @@ pub(super) fn beside(found: &Baselines) -> Vec<(&'static str, String)> {
 /// A sentence where planning gained little over the straight joint path.
 pub(super) fn remark(planned: BaseMotion, found: &Baselines) -> Option<String> {
     let straight = found.straight?;
-    let helps = "cost.preset = \"still\", a weight on cost.peak_base_attitude, or --search may turn it less";
+    let helps = "cost.preset = \"still\", a weight on cost.peak_base_attitude, or a search from \
+                 many starts may turn it less";
     match Gain::of(planned, straight) {
         Gain::Needless | Gain::Clear => None,
         Gain::Little => Some(format!(
