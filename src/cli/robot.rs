@@ -25,7 +25,7 @@ pub(super) fn check(urdf: &Path) -> Result<Outcome, Failure> {
     }
     let path = urdf.display();
     terminal::print(&format!(
-        "{path}: a robot\n\n{}\nA problem for it: ffsm-ipopt init DIR --urdf {path}",
+        "{path}: a robot\n\n{}\nA problem for it: ffsm-ipopt init DIR --urdf {path}\n",
         lines.finish()
     ))?;
     Ok(Outcome::Done)

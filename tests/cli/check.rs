@@ -51,3 +51,13 @@ fn straight_line_motion_of_an_arm_in_space() {
         assert!((found - expected).abs() < 6e-5, "{line}");
     }
 }
+
+#[test]
+fn a_robot_alone_is_described_and_its_problem_named() {
+    let folder = Folder::new(PROBLEM);
+    folder.write("arm.urdf", include_str!("../../config/starter/arm.urdf"));
+    let run = folder.run(&["check", "arm.urdf"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run:?}");
+    let expected = "\nA problem for it: ffsm-ipopt init DIR --urdf arm.urdf\n";
+    assert!(run.stdout.ends_with(expected), "{}", run.stdout);
+}
