@@ -309,6 +309,85 @@ fn places_that_a_limit_forbids() {
     );
 }
 
+/// The mass centre of the two-link arm and its base, from the base's frame, in the plane.
+fn mass_center(joints: [f64; 2]) -> [f64; 2] {
+    let robot = problems::two_link();
+    let (mut at, mut turned) = ([0.0; 2], 0.0_f64);
+    let mut mass = robot.base().inertia.mass();
+    let mut moment = [0.0; 2];
+    let mut along = |at: &mut [f64; 2], turned: f64, way: [f64; 2], part: f64| {
+        let (sin, cos) = turned.sin_cos();
+        let there = [
+            at[0] + cos * way[0] - sin * way[1],
+            at[1] + sin * way[0] + cos * way[1],
+        ];
+        moment = [0, 1].map(|k| moment[k] + part * there[k]);
+        there
+    };
+    for (joint, angle) in robot.joints().iter().zip(joints) {
+        let way = joint.placement.translation;
+        at = along(&mut at, turned, [way.x, way.y], 0.0);
+        turned += angle;
+        let (part, center) = (joint.body.inertia.mass(), joint.body.inertia.center());
+        along(&mut at, turned, [center.x, center.y], part);
+        mass += part;
+    }
+    moment.map(|m| m / mass)
+}
+
+#[test]
+fn a_box_that_the_mass_centre_keeps_the_base_out_of() {
+    let (goal, most) = ([PI / 6.0, PI / 3.0], 0.02_f64);
+    let (start, end) = (mass_center([0.0; 2]), mass_center(goal));
+    // Where the base is at the goal, turned by so much: at the corner of the smallest square around.
+    let needs = |turned: f64| {
+        let (sin, cos) = turned.sin_cos();
+        let x = start[0] - cos * end[0] + sin * end[1];
+        let y = start[1] - sin * end[0] - cos * end[1];
+        x.abs().max(y.abs())
+    };
+    let least = |most: f64| {
+        let turns = (-2000..=2000).map(|k| needs(most * f64::from(k) / 2000.0));
+        turns.fold(f64::INFINITY, f64::min)
+    };
+    let with = |half: f64, attitude: f64| {
+        found(|problem| {
+            problem.limits.base_position = vec![Interval::symmetric(half); 2];
+            problem.limits.base_attitude = vec![Interval::symmetric(attitude)];
+        })
+    };
+    let (any, few) = (least(PI), least(most));
+    assert!(any > 1e-3 && few > 1.1 * any, "{any} {few}");
+    // What can be is never refused, at any attitude or within the limit.
+    assert_none(&with(1.001 * any, f64::INFINITY));
+    assert_none(&with(1.001 * few, most));
+    assert!(matches!(
+        with(0.5 * any, f64::INFINITY)[..],
+        [Impossible::BaseDisplacement {
+            place: Place::Goal,
+            turned: None,
+            outside,
+        }] if outside > 0.0 && outside < any
+    ));
+    assert!(matches!(
+        with(0.9 * any, most)[..],
+        [Impossible::BaseDisplacement {
+            turned: Some(turned),
+            ..
+        }] if turned == most
+    ));
+    // Momentum carries the mass centre away; a free duration leaves open how far.
+    let drifting = |duration: Interval, half: f64| {
+        found(|problem| {
+            problem.task.duration = duration;
+            problem.task.initial_momentum.linear = vec![1.0, 0.0];
+            problem.limits.base_position = vec![Interval::symmetric(half); 2];
+        })
+    };
+    assert_eq!(drifting(Interval::fixed(20.0), 0.1).len(), 1);
+    assert_none(&drifting(Interval::new(0.1, 20.0), 0.1));
+}
+
 #[test]
 fn all_of_start_and_goal_outside_of_limits_is_listed() {
     let mut problem = problems::relaxed().into_builder();

@@ -133,7 +133,8 @@ fn between(rng: &mut Rng, low: f64, high: f64) -> f64 {
     low * (high / low).powf(rng.f64())
 }
 
-/// A task; `None` where it cannot be carried out, whatever the motion.
+/// A task; `None` where it cannot be carried out, whatever the motion, or where nothing bounds or weighs
+/// the control: no trajectory attains the least cost then, since rates may jump.
 fn task(seed: u64) -> Option<Problem> {
     let rng = &mut Rng::with_seed(seed);
     let arm = arm(rng);
@@ -155,7 +156,16 @@ fn task(seed: u64) -> Option<Problem> {
     let problem = problem
         .build()
         .unwrap_or_else(|error| panic!("{seed}: {error}"));
-    impossible(&problem).is_empty().then_some(problem)
+    (has_a_least(&problem) && impossible(&problem).is_empty()).then_some(problem)
+}
+
+/// Whether the control of every joint is bounded or costs something.
+fn has_a_least(problem: &Problem) -> bool {
+    let (limits, cost) = (&problem.limits, &problem.cost);
+    (0..problem.robot.joint_count()).all(|j| {
+        let bounded = [limits.control[j], limits.torque[j]].map(|range| range.upper.is_finite());
+        bounded.contains(&true) || cost.control[j] + cost.torque[j] > 0.0
+    })
 }
 
 fn add_goals(rng: &mut Rng, arm: &Arm, problem: &mut ProblemBuilder) {

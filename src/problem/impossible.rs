@@ -95,6 +95,16 @@ pub enum Impossible {
         /// How far they are within each other, m.
         overlap: f64,
     },
+    /// The system's mass centre keeps the base outside of the box it may be in.
+    BaseDisplacement {
+        /// Where the joint positions are given.
+        place: Place,
+        /// The largest rotation angle that the limits on the attitude allow there, rad; `None` where the
+        /// base is outside whatever its attitude.
+        turned: Option<f64>,
+        /// How far it is outside at the least, m.
+        outside: f64,
+    },
     /// The base turns too fast from the start.
     BaseRate {
         /// The component of the limit, and how many there are.
@@ -136,6 +146,7 @@ impl Impossible {
                 goal => format!("{goal}.position"),
             },
             Self::NotApart { place, .. } => place.joints(),
+            Self::BaseDisplacement { .. } => LimitId::BasePosition.to_string(),
             Self::BaseRate { component, .. } => of(LimitId::BaseRate, *component),
             Self::FinalBaseAttitude { component, .. } => of(LimitId::FinalBaseAttitude, *component),
         }
@@ -195,6 +206,20 @@ impl Impossible {
                 LimitId::KeepOut,
                 digits(*overlap)
             ),
+            Self::BaseDisplacement {
+                place,
+                turned,
+                outside,
+            } => {
+                let attitude = match turned {
+                    Some(angle) => format!("while it turns by {} rad at most", digits(*angle)),
+                    None => "whatever its attitude".into(),
+                };
+                let outside = digits(*outside);
+                format!(
+                    "a box that the base is at least {outside} m outside of at {place}, {attitude}"
+                )
+            }
             Self::BaseRate {
                 name, rate, bound, ..
             } => format!(
@@ -219,6 +244,10 @@ impl Impossible {
                 format!("at most {} m, as far as the arm can reach", digits(*reach))
             }
             Self::NotApart { .. } => "positions at which they are apart".into(),
+            Self::BaseDisplacement { outside, .. } => format!(
+                "{} m more room: joints do not move the system's mass centre",
+                digits(*outside)
+            ),
             Self::BaseRate { rate, .. } => format!("a range around {}", digits(*rate)),
             Self::FinalBaseAttitude { along, .. } => format!(
                 "a range that meets {}, [{}, {}]",

@@ -26,6 +26,10 @@ const STRUCTURE_BARRIER: f64 = 1e-6;
 /// Iterations after which a mesh with a structure is given up: with the right one it takes fewer.
 const STRUCTURE_ITERATIONS: u32 = 200;
 
+/// Iterations after which a warm start is given up for a cold one: far from the solution a small
+/// barrier makes steps short, hundreds in a row.
+const WARM_ITERATIONS: u32 = 100;
+
 /// Ipopt's own barrier parameter at a cold start.
 const LARGEST_BARRIER: f64 = 0.1;
 
@@ -167,18 +171,23 @@ impl<O: Ocp> MeshSolver<'_, O> {
         statistics: &mut Statistics,
         monitor: &mut dyn FnMut(&Progress) -> Control,
     ) -> Result<Solved, ipopt::IpoptError> {
+        let allowed = settings.max_iterations;
+        // Where a structure fails, the law has another mesh.
+        let again = program.structure().is_empty();
+        if again && settings.warm_start.is_some() {
+            settings.max_iterations = allowed.min(WARM_ITERATIONS);
+        }
         let mut solution = in_units(program, units, &settings, &iterate, monitor)?;
         statistics.add(&solution.statistics);
         let mut nlp_iterations = solution.statistics.iterations;
         let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
         let gave_up = !solution.status.is_solved() && !stopped;
-        // Where a structure fails, the law has another mesh.
-        let again = program.structure().is_empty();
         if gave_up && again && settings.warm_start.take().is_some() {
             // Multipliers may mislead; the same trajectory without them has every chance of
             // a cold start.
             let spent = solution.statistics.total;
             settings.time_limit = settings.time_limit.map(|limit| limit.saturating_sub(spent));
+            settings.max_iterations = allowed;
             let primal = Iterate::primal(iterate.x);
             solution = in_units(program, units, &settings, &primal, monitor)?;
             statistics.add(&solution.statistics);

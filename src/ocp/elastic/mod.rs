@@ -2,12 +2,14 @@
 //!
 //! | file | does |
 //! | --- | --- |
+//! | `amounts` | by how much a trajectory exceeds what gives way |
 //! | `limits` | which bounds give way, and what the problem is without them |
 //! | `problem` | the elastic problem as an [`Ocp`](super::Ocp) |
 //! | `derivatives` | its derivatives from those of the problem inside |
 //!
 //! Derived in docs/algorithms.md#elastic-diagnosis.
 
+mod amounts;
 mod derivatives;
 mod limits;
 mod problem;

@@ -1,11 +1,13 @@
 //! What no motion can do, found before any solve: too little time, a goal beyond reach, places that
-//! a limit forbids.
+//! a limit or the system's mass centre forbids.
 //!
 //! Every answer follows from bounds that hold whatever the path, so that nothing is refused that
 //! could be planned. What needs a search for its proof is left to the planner's diagnosis.
 //!
-//! Derived in docs/algorithms.md#least-time and docs/algorithms.md#reach.
+//! Derived in docs/algorithms.md#least-time, docs/algorithms.md#reach and
+//! docs/algorithms.md#displacement.
 
+mod displacement;
 mod least_time;
 mod places;
 mod ramp;
@@ -22,6 +24,7 @@ pub fn impossible(problem: &Problem) -> Vec<Impossible> {
         let mut found = least_time::reasons(problem, &system.plant);
         found.extend(reach::reasons(problem, &system.plant));
         found.extend(places::reasons(problem, system));
+        found.extend(displacement::reasons(problem, &system.plant));
         found
     })
 }

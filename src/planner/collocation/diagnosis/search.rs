@@ -34,6 +34,8 @@ const GAIN: f64 = 5e-3;
 const SAME: f64 = 1e-6;
 /// Largest error (28) beyond which the solution on one mesh says nothing of a motion.
 const GROSS: f64 = 1.0;
+/// Part to which such an error falls on the next mesh at least where a motion comes of it.
+const FALLS: f64 = 0.5;
 /// Starts with such an error, before any other, after which a search is given up.
 const GROSS_STARTS: usize = 3;
 /// Weight of the problem's own cost, so that the least relaxation is not degenerate.
@@ -53,6 +55,9 @@ const LOWER_WEIGHT_GAIN: f64 = 0.02;
 const LOWER_WEIGHT_BARRIER: f64 = 1e-3;
 /// Mesh iterations of the refinement.
 const MESHES: usize = 10;
+/// λ₁ of (30) in the refinement at most: which limits give way where is found again on every mesh, which
+/// takes many iterations, so that meshes grow in steps.
+const PARTS: f64 = 1.0;
 /// Excess that the straight path is taken to have at least.
 const LEAST_EXCESS: f64 = 1e-2;
 
@@ -301,6 +306,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             method: Method::Adaptive,
             law: Law::Paper,
             max_iterations: Some(meshes),
+            lambda1: self.problem.mesh.lambda1.min(PARTS),
             ..self.problem.mesh.clone()
         }
     }
@@ -327,8 +333,21 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             settings: &self.settings(meshes),
             solver: &solver,
         };
-        let outcome =
-            refinement.run(from, &mut |event| (self.monitor)(&Event::Refinement(event)))?;
+        let (mut before, mut no_motion) = (f64::INFINITY, false);
+        let mut outcome = refinement.run(from, &mut |event| {
+            let control = (self.monitor)(&Event::Refinement(event));
+            if let refine::Event::Solved(record) = event {
+                no_motion = record.max_error >= GROSS && record.max_error > FALLS * before;
+                before = record.max_error;
+            }
+            match no_motion {
+                true => Control::Stop,
+                false => control,
+            }
+        })?;
+        if no_motion && outcome.cut_short == Some(CutShort::Interrupted) {
+            outcome.cut_short = None;
+        }
         self.statistics.add(&outcome.statistics);
         Ok(outcome)
     }
