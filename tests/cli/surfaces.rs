@@ -111,6 +111,7 @@ fn surfaces_from_elsewhere_stay_there() {
         ("../../secret.stl", "expected a file below"),
         ("../meshes/link.stl", "expected a file below"),
         ("package://arm/../secret.stl", "expected a file below"),
+        ("../package.xml", "expected a file that ends in .stl"),
         // Inside, but a copy would not find it by this name.
         (
             whole.to_str().unwrap(),

@@ -1,6 +1,6 @@
 //! Surfaces that go with a copy of the URDF that names them.
 
-use super::{LARGEST, locate};
+use super::{LARGEST, LARGEST_SUM, locate, parser};
 use crate::config::appearance::{Drawing, Form};
 use crate::config::regular;
 use std::collections::{HashMap, HashSet};
@@ -38,6 +38,7 @@ pub(in crate::config) fn copies(urdf: &Path, drawing: &Drawing) -> SurfaceCopies
         ..SurfaceCopies::default()
     };
     let (mut seen, mut taken) = (HashSet::new(), HashMap::new());
+    let mut left = LARGEST_SUM;
     for drawn in &drawing.parts {
         let Form::File { name, .. } = &drawn.part.form else {
             continue;
@@ -45,7 +46,7 @@ pub(in crate::config) fn copies(urdf: &Path, drawing: &Drawing) -> SurfaceCopies
         if !seen.insert(name) {
             continue;
         }
-        match copy(urdf, name, &mut taken) {
+        match copy(urdf, name, &mut taken, &mut left) {
             Ok(copy) => found.files.extend(copy),
             Err(why) => {
                 let link = &drawn.part.link;
@@ -60,12 +61,15 @@ pub(in crate::config) fn copies(urdf: &Path, drawing: &Drawing) -> SurfaceCopies
 }
 
 /// The file of that name, or none if it is among the `taken` already: places, and what lies there.
+/// `left` is what the files may have together, bytes.
 fn copy(
     urdf: &Path,
     name: &str,
     taken: &mut HashMap<PathBuf, PathBuf>,
+    left: &mut u64,
 ) -> Result<Option<SurfaceCopy>, String> {
     let source = locate::file(urdf, name)?;
+    parser(&source)?;
     let place = locate::beside(name).ok_or("expected a path relative to the URDF")?;
     match taken.get(&place) {
         Some(there) if *there == source => return Ok(None),
@@ -80,7 +84,8 @@ fn copy(
         }
         None => {}
     }
-    let bytes = regular::read(&source, LARGEST)?;
+    let bytes = regular::read(&source, LARGEST.min(*left))?;
+    *left -= bytes.len() as u64;
     taken.insert(place.clone(), source.clone());
     Ok(Some(SurfaceCopy {
         source,

@@ -73,6 +73,7 @@ fn too_many() -> String {
 }
 
 type Found = Result<Arc<Surface>, String>;
+type Parser = fn(&[u8]) -> Result<Surface, String>;
 
 /// Surfaces that a robot's file may name.
 pub(super) struct Shelf {
@@ -110,16 +111,21 @@ impl Shelf {
     }
 
     fn load(&self, path: &Path) -> Found {
-        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-        let parse = match ending.to_str() {
-            Some("stl") => stl::parse,
-            Some("obj") => obj::parse,
-            Some("dae") => dae::parse,
-            _ => return Err("expected a file that ends in .stl, .obj or .dae".into()),
-        };
+        let parse = parser(path)?;
         let bytes = regular::read(path, LARGEST.min(self.left.get()))?;
         self.left.set(self.left.get() - bytes.len() as u64);
         parse(&bytes)?.if_any().map(Arc::new)
+    }
+}
+
+/// What reads a file of that name, by its ending.
+fn parser(path: &Path) -> Result<Parser, String> {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match ending.to_str() {
+        Some("stl") => Ok(stl::parse),
+        Some("obj") => Ok(obj::parse),
+        Some("dae") => Ok(dae::parse),
+        _ => Err("expected a file that ends in .stl, .obj or .dae".into()),
     }
 }
 
