@@ -63,8 +63,9 @@ const GAIN: f64 = 1e-6;
 const FEW_STARTS: usize = 8;
 /// How many of what these end at are refined.
 const FEW_REFINED: usize = 2;
-/// Starts of the search at the largest factor, where optima are most.
-const END_STARTS: usize = 32;
+/// There are searches at the largest factor, where optima are most, and at one so far below it, as a part of
+/// the number of steps, where the front may go from one motion to another.
+const SEARCHED: usize = 4;
 /// Passes over all points in which motions are handed to neighbours.
 const PASSES: usize = 3;
 
@@ -112,7 +113,7 @@ impl<'a> ParetoFront<'a> {
     }
 
     /// Plans for every factor in turn, each from the plan before and a few other starts; at the last one
-    /// from many, unless there is a search at every point.
+    /// and at one below it from many, unless there is a search at every point.
     ///
     /// The problem is not convex, and a plan may stay with a motion that another has become better
     /// than. Where a neighbour's motion has the lower cost at a point's own factor, the point is
@@ -130,26 +131,24 @@ impl<'a> ParetoFront<'a> {
                 return Ok(());
             }
         }
-        if self.search.is_none() {
-            self.search_end(monitor)?;
+        if let (None, Some(last)) = (&self.search, self.points.len().checked_sub(1)) {
+            for k in [last, last - last / SEARCHED] {
+                if !self.is_over() {
+                    self.search_at(k, monitor)?;
+                }
+            }
         }
         self.descend(monitor)?;
         self.hand_on(monitor)
     }
 
-    /// Searches from many starts at the largest factor, where optima are most.
-    fn search_end(&mut self, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
-        let Some(last) = self.points.len().checked_sub(1) else {
-            return Ok(());
-        };
-        let many = Search {
-            starts: END_STARTS,
-            seed: self.points.len() as u64,
-        };
-        let factor = self.points[last].factor;
-        // Half of the time left is for what follows.
-        let point = self.plan((factor, Some(last)), (Starts::Search(many), 2), monitor)?;
-        self.replace(last, point);
+    /// Searches from many starts at point `k`.
+    fn search_at(&mut self, k: usize, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
+        let factor = self.points[k].factor;
+        // That of `plan --search`, which is not to find more. Half of the time left is for what follows.
+        let many = Starts::Search(Search::default());
+        let point = self.plan((factor, Some(k)), (many, 2), monitor)?;
+        self.replace(k, point);
         Ok(())
     }
 
