@@ -39,7 +39,7 @@ pub(super) fn reasons<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<Im
 fn known_time(problem: &Problem, fraction: f64) -> Option<f64> {
     let task = &problem.task;
     let rests = task.initial_momentum.linear.iter().all(|p| *p == 0.0);
-    (rests || task.duration.is_fixed()).then(|| fraction * task.duration.upper)
+    (rests || task.duration.is_fixed()).then_some(fraction * task.duration.upper)
 }
 
 /// How far outside of its box the base is at `place`, at the least.
