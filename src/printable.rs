@@ -2,6 +2,7 @@
 //! may hold them.
 
 use std::borrow::Cow;
+use std::fmt;
 
 /// `text` with control characters, but for line breaks and tabs, as `\u001b`; so are characters that
 /// change the direction of writing.
@@ -33,6 +34,14 @@ pub(crate) fn one_line(text: &str, most: usize) -> String {
         Some((end, _)) => format!("{}…", &line[..end]),
         None => line,
     }
+}
+
+/// Characters of what is said of a foreign file.
+const LONGEST: usize = 400;
+
+/// What a library says of a foreign file, which it may quote, on one line.
+pub(crate) fn message(said: impl fmt::Display) -> String {
+    one_line(&said.to_string(), LONGEST)
 }
 
 /// `text` as it may stand in XML, also between quotation marks.
@@ -70,5 +79,6 @@ mod tests {
     fn a_line_is_one_and_has_an_end() {
         assert_eq!(one_line("a\nb", 10), "a\\nb");
         assert_eq!(one_line("äöü", 2), "äö…");
+        assert_eq!(message("found '\n'"), "found '\\n'");
     }
 }

@@ -8,6 +8,7 @@ use crate::collocation::{Mesh, MeshError};
 use crate::config::{ConfigError, ProblemFile, regular};
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::planner::{Plan, Status};
+use crate::printable::message;
 use crate::problem::Problem;
 use crate::system::with_peaks;
 use crate::transcription::Discretization;
@@ -59,7 +60,7 @@ pub enum SolutionError {
         expected: String,
     },
     /// The texts of problem and robot in it no longer make a problem.
-    #[error("{}: provenance: {cause}", path.display())]
+    #[error("{}: provenance: {}", path.display(), message(cause))]
     Provenance {
         /// The file.
         path: PathBuf,
@@ -184,10 +185,10 @@ pub fn parse_solution(path: &Path, text: &str) -> Result<Solution, SolutionError
     };
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let solution: Solution = serde_path_to_error::deserialize(&mut deserializer)
-        .map_err(|error| format(error.path().to_string(), error.inner().to_string()))?;
+        .map_err(|error| format(message(error.path()), message(error.inner())))?;
     deserializer
         .end()
-        .map_err(|error| format("end".into(), error.to_string()))?;
+        .map_err(|error| format("end".into(), message(error)))?;
     if solution.schema != 1 {
         return Err(format("schema".into(), solution.schema.to_string()));
     }

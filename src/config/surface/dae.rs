@@ -3,6 +3,7 @@
 //! stand, whichever of them points up.
 
 use super::Surface;
+use crate::printable::message;
 use nalgebra::{Matrix4, Rotation3, Unit, Vector3, Vector4};
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
@@ -13,7 +14,7 @@ const MOST_NODES: usize = 100_000;
 /// Reads a surface, in metres.
 pub(super) fn parse(bytes: &[u8]) -> Result<Surface, String> {
     let text = str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text")?;
-    let document = Document::parse(text).map_err(|error| format!("not XML: {error}"))?;
+    let document = Document::parse(text).map_err(|error| format!("not XML: {}", message(error)))?;
     let root = document.root_element();
     if root.tag_name().name() != "COLLADA" {
         return Err("the outermost element is not <COLLADA>".into());

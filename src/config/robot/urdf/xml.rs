@@ -2,6 +2,7 @@
 
 use super::element::Source;
 use crate::config::ConfigError;
+use crate::printable::message;
 use roxmltree::{Document, Error};
 use std::ops::Range;
 
@@ -49,7 +50,8 @@ pub(super) fn parse<'input>(
     Document::parse(text).or_else(|error| {
         let position = error.pos();
         // The line stands in front.
-        let mut message = error.to_string().replace(&format!(" at {position}"), "");
+        let said = error.to_string().replace(&format!(" at {position}"), "");
+        let mut message = message(said);
         let place = source.line(Some(position.row as usize));
         if text.contains("<xacro:") {
             message.push_str(&format!("; {RUN_XACRO}"));
