@@ -1,6 +1,6 @@
 //! The amounts by which a trajectory exceeds the limits that give way.
 
-use super::limits::{AtInstant, Elastic, OnPath};
+use super::limits::Elastic;
 use crate::ocp::{Ends, InteriorPoint, Interval, Ocp, Point};
 
 impl<O: Ocp> Elastic<'_, O> {
@@ -27,31 +27,23 @@ impl<O: Ocp> Elastic<'_, O> {
             self.inner
                 .continuous(point, &mut scratch, &mut rates, &mut path);
             for bound in &self.path {
-                let value = match bound.quantity {
-                    OnPath::State(i) => point.x[i],
-                    OnPath::Control(i) => point.u[i],
-                    OnPath::Row(i) => path[i],
-                };
+                let value = bound.quantity.value(point.x, point.u, &path);
                 raise(bound.group, &bound.bounds, value);
             }
         }
-        let at_instant = |quantity, x: &[f64], rows: &[f64]| match quantity {
-            AtInstant::State(i) => x[i],
-            AtInstant::Row(i) => rows[i],
-        };
         for point in way_points {
             let w = point.way_point;
             let mut rows = vec![0.0; self.base.way_points[w].rows.len()];
             self.inner.way_point(point, &mut scratch, &mut rows);
             for bound in &self.way_points[w] {
-                let value = at_instant(bound.quantity, point.x, &rows);
+                let value = bound.quantity.value(point.x, &rows);
                 raise(bound.group, &bound.bounds, value);
             }
         }
         let mut rows = vec![0.0; self.base.boundary.len()];
         self.inner.boundary(ends, &mut scratch, &mut rows);
         for bound in &self.boundary {
-            let value = at_instant(bound.quantity, ends.terminal, &rows);
+            let value = bound.quantity.value(ends.terminal, &rows);
             raise(bound.group, &bound.bounds, value);
         }
         needed

@@ -78,6 +78,27 @@ pub(super) enum AtInstant {
     Row(usize),
 }
 
+impl OnPath {
+    /// Its value at a point: states, controls and path rows there.
+    pub fn value<S: Copy>(self, x: &[S], u: &[S], path: &[S]) -> S {
+        match self {
+            Self::State(i) => x[i],
+            Self::Control(i) => u[i],
+            Self::Row(i) => path[i],
+        }
+    }
+}
+
+impl AtInstant {
+    /// Its value at that instant: states and rows there.
+    pub fn value<S: Copy>(self, x: &[S], rows: &[S]) -> S {
+        match self {
+            Self::State(i) => x[i],
+            Self::Row(i) => rows[i],
+        }
+    }
+}
+
 impl<Q> ElasticBound<Q> {
     /// Takes the bounds out of `from`, which is free from then on.
     fn take(quantity: Q, group: usize, from: &mut Interval) -> Self {

@@ -22,10 +22,7 @@ impl<O: Ocp> Elastic<'_, O> {
         elastic_rows: &mut [S],
     ) {
         for (rows, bound) in elastic_rows.chunks_exact_mut(2).zip(bounds) {
-            let value = match bound.quantity {
-                AtInstant::State(i) => x[i],
-                AtInstant::Row(row) => inner_rows[row],
-            };
+            let value = bound.quantity.value(x, inner_rows);
             self.widen(value, bound.group, amounts, rows);
         }
     }
@@ -110,11 +107,7 @@ impl<O: Ocp> Ocp for Elastic<'_, O> {
         let own = scratch.path.len();
         path[..own].copy_from_slice(&scratch.path);
         for (rows, bound) in path[own..].chunks_exact_mut(2).zip(&self.path) {
-            let value = match bound.quantity {
-                OnPath::State(i) => point.x[i],
-                OnPath::Control(i) => point.u[i],
-                OnPath::Row(i) => scratch.path[i],
-            };
+            let value = bound.quantity.value(point.x, point.u, &scratch.path);
             self.widen(value, bound.group, amounts, rows);
         }
         let mut cost = cost * self.regularization;

@@ -55,11 +55,11 @@ fn outside<Sp: Space>(
     plant.tree.momentum(&mut data);
     let arm = data.system_center;
     // The base is at −R·arm from the mass centre.
-    let radius = norm(arm.components());
+    let radius = arm.dot(&arm).sqrt();
     let mut center = plant.start_position.times(-1.0);
     plant.drift.carry(time, center.components_mut());
     let bounds = &problem.limits.base_position;
-    let room = ROOM * (radius + norm(center.components()));
+    let room = ROOM * (radius + center.dot(&center).sqrt());
 
     let at_any_attitude = apart(bounds, &center, radius);
     let turned = largest_turn(&problem.limits, place);
@@ -106,8 +106,4 @@ fn largest_turn(limits: &Limits, place: Place) -> f64 {
         Place::Goal => along.min(turn(&limits.final_base_attitude)),
         _ => along,
     }
-}
-
-fn norm(components: &[f64]) -> f64 {
-    components.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
