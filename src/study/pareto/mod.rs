@@ -51,6 +51,8 @@ enum Starts {
     Few,
     /// A search, that motion among its starts.
     Search(Search),
+    /// Perturbations of that motion.
+    Around,
 }
 
 /// Iterations on one mesh after which a plan from a neighbour's mesh and multipliers is given up: where
@@ -132,13 +134,19 @@ impl<'a> ParetoFront<'a> {
             }
         }
         if let (None, Some(last)) = (&self.search, self.points.len().checked_sub(1)) {
-            for k in [last, last - last / SEARCHED] {
+            let below = last - last / SEARCHED;
+            for k in [last, below] {
                 if !self.is_over() {
                     self.search_at(k, monitor)?;
                 }
             }
+            self.descend(last, monitor)?;
+            if !self.is_over() && self.search_around(below, monitor)? {
+                self.descend(below, monitor)?;
+            }
+        } else if let Some(last) = self.points.len().checked_sub(1) {
+            self.descend(last, monitor)?;
         }
-        self.descend(monitor)?;
         self.hand_on(monitor)
     }
 
@@ -152,11 +160,18 @@ impl<'a> ParetoFront<'a> {
         Ok(())
     }
 
-    /// From the largest factor down, solves each point on the first mesh from the motion of the point
+    /// Searches again at point `k`, around the motion that came of all before; whether it gained.
+    fn search_around(&mut self, k: usize, monitor: &mut Monitor<'_>) -> Result<bool, PlanError> {
+        let factor = self.points[k].factor;
+        let point = self.plan((factor, Some(k)), (Starts::Around, 2), monitor)?;
+        Ok(self.replace(k, point))
+    }
+
+    /// From point `first` down, solves each point on the first mesh from the motion of the point
     /// above, and refines what is better there. That motion itself need not be: the first sweep came
     /// from below, and a motion that serves large factors is left and found again by its own optimum.
-    fn descend(&mut self, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
-        for k in (1..self.points.len()).rev() {
+    fn descend(&mut self, first: usize, monitor: &mut Monitor<'_>) -> Result<(), PlanError> {
+        for k in (1..=first).rev() {
             let (above, below) = (k, k - 1);
             if self.is_over() {
                 break;
@@ -352,6 +367,10 @@ impl<'a> ParetoFront<'a> {
         let told = &mut |event: &SearchEvent<'_>| monitor(factor, event);
         let plan = match starts {
             Starts::Search(search) => search.run(&problem, start.as_ref(), told)?.plan,
+            Starts::Around => match &start {
+                Some(start) => Search::default().run_around(&problem, start, told)?.plan,
+                None => Search::default().run(&problem, None, told)?.plan,
+            },
             Starts::Few => {
                 let search = Search {
                     starts: FEW_STARTS,

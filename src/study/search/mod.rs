@@ -104,6 +104,9 @@ struct Refined {
     plan: Plan,
 }
 
+/// What is refined of all that starts ended at, and the rest.
+type Choose = dyn Fn(Vec<Ended>) -> (Vec<Ended>, Vec<Ended>);
+
 impl Search {
     /// Searches for the best plan of `problem`, from `given` as well where there is one, telling
     /// `monitor` of every step.
@@ -119,7 +122,18 @@ impl Search {
         given: Option<&Start>,
         monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
     ) -> Result<Searched, PlanError> {
-        self.run_choosing(&chosen, problem, given, monitor)
+        self.run_choosing((self.half(), &chosen), problem, given, monitor)
+    }
+
+    /// The same with nearly all starts perturbing the best ones, where those from nothing were tried before
+    /// and led to `given`.
+    pub(in crate::study) fn run_around(
+        &self,
+        problem: &Problem,
+        given: &Start,
+        monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
+    ) -> Result<Searched, PlanError> {
+        self.run_choosing((Results::LAG, &chosen), problem, Some(given), monitor)
     }
 
     /// The same with the `few` best on the first mesh refined alone, where neighbours of a sweep will be
@@ -131,11 +145,16 @@ impl Search {
         given: Option<&Start>,
         monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
     ) -> Result<Searched, PlanError> {
-        let best = |mut ended: Vec<Ended>| {
+        let best = move |mut ended: Vec<Ended>| {
             let rest = ended.split_off(few.min(ended.len()));
             (ended, rest)
         };
-        self.run_choosing(&best, problem, given, monitor)
+        self.run_choosing((self.half(), &best), problem, given, monitor)
+    }
+
+    /// Half of the starts, which are from nothing.
+    fn half(&self) -> usize {
+        self.starts.max(1).div_ceil(2)
     }
 
     /// Solves from the straight path and `given` on the first mesh, and refines what is better there than
@@ -149,7 +168,7 @@ impl Search {
         let deadline = Deadline::after(problem.solver.time_limit);
         let teller = Teller::new(monitor);
         let (search, mut optima) = (Self { starts: 2, seed: 0 }, Optima::default());
-        let ended = search.try_starts(problem, Some(given), &mut optima, &teller)?;
+        let ended = search.try_starts(2, (problem, Some(given)), &mut optima, &teller)?;
         let better = |one: &Ended| one.optimum.objective < cost * (1.0 - MESHES);
         let best = ended.into_iter().next().filter(better);
         let refined = refine(problem, best.into_iter().collect(), deadline, &teller)?;
@@ -158,7 +177,7 @@ impl Search {
 
     fn run_choosing(
         &self,
-        choose: &dyn Fn(Vec<Ended>) -> (Vec<Ended>, Vec<Ended>),
+        (fresh, choose): (usize, &Choose),
         problem: &Problem,
         given: Option<&Start>,
         monitor: &mut (dyn FnMut(&SearchEvent<'_>) -> Control + Send),
@@ -170,7 +189,7 @@ impl Search {
             seed: self.seed,
             ..Optima::default()
         };
-        let ended = self.try_starts(problem, given, &mut optima, &teller)?;
+        let ended = self.try_starts(fresh, (problem, given), &mut optima, &teller)?;
         let (best, rest) = choose(ended);
         let mut refined = refine(problem, best, deadline, &teller)?;
         refined.sort_by(|a, b| {
@@ -214,11 +233,12 @@ impl Search {
         Ok(Searched { plan, optima })
     }
 
-    /// Distinct optima on the first mesh, the best first.
+    /// Distinct optima on the first mesh, the best first, of so many `fresh` starts and of those that
+    /// perturb what was found.
     fn try_starts(
         &self,
-        problem: &Problem,
-        given: Option<&Start>,
+        fresh: usize,
+        (problem, given): (&Problem, Option<&Start>),
         optima: &mut Optima,
         teller: &Teller<'_>,
     ) -> Result<Vec<Ended>, PlanError> {
@@ -238,8 +258,6 @@ impl Search {
             });
         };
         let starts = self.starts.max(1);
-        // Half of the starts are from nothing.
-        let fresh = starts.div_ceil(2);
         let results = Results::new(fresh, PERTURBED);
         with_system!(&System::new(problem), system => {
             let first_mesh = FirstMesh::new(problem, system, given, self.seed)?;
