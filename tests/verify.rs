@@ -141,7 +141,8 @@ fn assert_exact(name: &str, found: &Verification) {
             "{name}: {what} off by {value:.1e}: {found:?}"
         );
     }
-    assert!(found.steps > 20);
+    // Each of ten segments takes one at least.
+    assert!(found.steps >= 10);
 }
 
 #[test]

@@ -3,12 +3,18 @@
 //! | file | method | used where |
 //! | --- | --- | --- |
 //! | `rk4` | classical Runge-Kutta, fixed step | the right-hand side is smooth and the step known |
-//! | `dormand_prince` | Dormand-Prince 5(4), adaptive step | an error tolerance has to be met |
+//! | `dormand_prince` | Dormand-Prince 5(4), adaptive step | an error tolerance has to be met, and the rates jump often |
+//! | `dop853` | of eighth order, adaptive step, values within steps | the same where the rates are smooth |
+//! | `ode` | what is integrated, and errors | |
 //!
-//! Both own their workspace: no step allocates.
+//! All own their workspace: no step allocates.
 
+mod dop853;
 mod dormand_prince;
+mod ode;
 mod rk4;
 
-pub use dormand_prince::{DormandPrince, IntegrationError, Ode};
+pub use dop853::{Dop853, Reached};
+pub use dormand_prince::DormandPrince;
+pub use ode::{IntegrationError, Ode};
 pub use rk4::Rk4;

@@ -2,13 +2,7 @@
 
 use super::bodies::{Bodies, BodyMotion};
 use crate::dynamics::{JointKind, Model};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
-use faer::linalg::triangular_solve::{
-    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
-};
-use faer::{Mat, MatMut, MatRef, Par};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Cholesky, DMatrix, DMatrixView, DVectorViewMut, Dyn, Matrix3, Vector3};
 
 /// Degrees of freedom of the base: velocity of its origin, then angular velocity, inertial axes.
 pub const BASE: usize = 6;
@@ -21,15 +15,15 @@ pub struct NotPositiveDefinite;
 /// M = Σ JᵀMᵢJ over all bodies with the bias Σ Jᵀ(Mᵢa + ω×Iω), a being the accelerations at zero
 /// generalized acceleration. The base's six coordinates come first, then the joints.
 pub struct MassMatrix {
-    matrix: Mat<f64>,
-    factor: Mat<f64>,
+    matrix: DMatrix<f64>,
+    /// L with M = LLᵀ; nothing where that broke down.
+    factor: Option<Cholesky<f64, Dyn>>,
     bias: Vec<f64>,
     /// The joints' columns of the current body's Jacobian that are not zero: coordinate, velocity of the
     /// mass centre and angular velocity for its unit rate.
     jacobian: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
     /// Angular and origin acceleration of every body at zero generalized acceleration.
     accelerations: Vec<(Vector3<f64>, Vector3<f64>)>,
-    scratch: MemBuffer,
 }
 
 impl std::fmt::Debug for MassMatrix {
@@ -47,16 +41,11 @@ impl MassMatrix {
         let size = BASE + model.joint_count();
         let zero = Vector3::zeros();
         Self {
-            matrix: Mat::zeros(size, size),
-            factor: Mat::zeros(size, size),
+            matrix: DMatrix::identity(size, size),
+            factor: Cholesky::new(DMatrix::identity(size, size)),
             bias: vec![0.0; size],
             jacobian: Vec::with_capacity(size),
             accelerations: vec![(zero, zero); model.joint_count() + 1],
-            scratch: MemBuffer::new(cholesky_in_place_scratch::<f64>(
-                size,
-                Par::Seq,
-                Default::default(),
-            )),
         }
     }
 
@@ -76,21 +65,36 @@ impl MassMatrix {
         for body in 0..bodies.motions().len() {
             self.add_body(model, bodies, body);
         }
-        self.factor.copy_from(&self.matrix);
-        cholesky_in_place(
-            self.factor.as_mut(),
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut self.scratch),
-            Default::default(),
-        )
-        .map(drop)
-        .map_err(|_| NotPositiveDefinite)
+        // The room of the last factor serves again.
+        let room = self.factor.take().map(Cholesky::unpack_dirty);
+        let room = match room {
+            Some(mut room) => {
+                room.copy_from(&self.matrix);
+                room
+            }
+            None => self.matrix.clone(),
+        };
+        self.factor = Cholesky::new(room);
+        match self.factor {
+            Some(_) => Ok(()),
+            None => Err(NotPositiveDefinite),
+        }
     }
 
     /// The full matrix M; only its lower triangle is filled.
-    pub fn matrix(&self) -> MatRef<'_, f64> {
-        self.matrix.as_ref()
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
+    /// L, its upper triangle being of no meaning.
+    ///
+    /// # Panics
+    /// Where the last [`Self::update`] failed.
+    fn factor(&self) -> &DMatrix<f64> {
+        let factor = self.factor.as_ref();
+        factor
+            .expect("a factor is asked for after an update that worked")
+            .l_dirty()
     }
 
     /// The bias forces, length 6 + n.
@@ -119,8 +123,7 @@ impl MassMatrix {
                 *sum -= self.matrix[(BASE + j, row)] * rate;
             }
         }
-        let base = self.factor.get(..BASE, ..BASE);
-        solve(base, &mut twist);
+        solve(self.factor().view((0, 0), (BASE, BASE)), &mut twist);
         (
             Vector3::new(twist[0], twist[1], twist[2]),
             Vector3::new(twist[3], twist[4], twist[5]),
@@ -134,8 +137,9 @@ impl MassMatrix {
     pub fn reduced_times(&self, u: &[f64], product: &mut [f64]) {
         let n = u.len();
         product.fill(0.0);
+        let (factor, size) = (self.factor().as_slice(), BASE + n);
         for column in 0..n {
-            let l = &self.factor.col_as_slice(BASE + column)[BASE..];
+            let l = &factor[(BASE + column) * size + BASE..][..n];
             let along: f64 = (column..n).map(|row| l[row] * u[row]).sum();
             for row in column..n {
                 product[row] += l[row] * along;
@@ -147,7 +151,7 @@ impl MassMatrix {
     pub fn reduced_bias(&self, product: &mut [f64]) {
         let mut base = [0.0; BASE];
         base.copy_from_slice(&self.bias[..BASE]);
-        solve(self.factor.get(..BASE, ..BASE), &mut base);
+        solve(self.factor().view((0, 0), (BASE, BASE)), &mut base);
         for (j, out) in product.iter_mut().enumerate() {
             let through_base: f64 = (0..BASE)
                 .map(|k| self.matrix[(BASE + j, k)] * base[k])
@@ -164,7 +168,7 @@ impl MassMatrix {
         for (value, torque) in a[BASE..].iter_mut().zip(torque) {
             *value += torque;
         }
-        solve(self.factor.as_ref(), a);
+        solve(self.factor().as_view(), a);
     }
 
     /// Accelerations that remain when all generalized accelerations are zero.
@@ -257,10 +261,9 @@ fn at(alpha: &Vector3<f64>, omega: &Vector3<f64>, r: &Vector3<f64>) -> Vector3<f
     alpha.cross(r) + omega.cross(&omega.cross(r))
 }
 
-/// Overwrites `b` with (LLᵀ)⁻¹b.
-fn solve(lower: MatRef<'_, f64>, b: &mut [f64]) {
-    let size = b.len();
-    let mut b = MatMut::from_column_major_slice_mut(b, size, 1);
-    solve_lower_triangular_in_place(lower, b.as_mut(), Par::Seq);
-    solve_upper_triangular_in_place(lower.transpose(), b, Par::Seq);
+/// Overwrites `b` with (LLᵀ)⁻¹b. The diagonal of a factor has no zeros.
+fn solve(lower: DMatrixView<'_, f64, nalgebra::U1, Dyn>, b: &mut [f64]) {
+    let mut b = DVectorViewMut::from_slice(b, b.len());
+    lower.solve_lower_triangular_unchecked_mut(&mut b);
+    lower.tr_solve_lower_triangular_unchecked_mut(&mut b);
 }

@@ -5,13 +5,14 @@ use super::mass_matrix::{MassMatrix, NotPositiveDefinite};
 use super::{Verification, VerifyError};
 use crate::dynamics::Model;
 use crate::dynamics::attitude::SpatialAttitude;
-use crate::integrate::{DormandPrince, IntegrationError, Ode};
+use crate::integrate::{Dop853, IntegrationError, Ode, Reached};
 use crate::problem::Problem;
 use crate::transcription::Discretization;
 use nalgebra::{UnitQuaternion, Vector3};
+use std::ops::ControlFlow;
 
-const RELATIVE: f64 = 1e-10;
-const ABSOLUTE: f64 = 1e-12;
+const RELATIVE: f64 = 1e-11;
+const ABSOLUTE: f64 = 1e-13;
 /// Far above what any plan needs; ends the integration of one that runs away.
 const MAX_STEPS: usize = 1_000_000;
 
@@ -119,39 +120,48 @@ pub(super) fn run<P: Pass>(
         time,
     };
     let mut y = pass.start().map_err(|NotPositiveDefinite| singular(0.0))?;
-    let mut integrator = DormandPrince::new(y.len(), RELATIVE, ABSOLUTE, MAX_STEPS);
+    let mut integrator = Dop853::new(y.len(), RELATIVE, ABSOLUTE, MAX_STEPS);
     let mesh = &plan.mesh;
     for s in 0..mesh.segments() {
         pass.enter(plan, s);
         if s > 0 {
             integrator.change_unit(mesh.width(s) / mesh.width(s - 1));
         }
+        let time = |tau| mesh.fraction(s, tau) * plan.duration;
         let nodes = mesh.rule(s).nodes();
-        for (i, ends) in nodes.windows(2).enumerate() {
-            let time = |tau| mesh.fraction(s, tau) * plan.duration;
-            integrator
-                .advance(&mut pass, [ends[0], ends[1]], &mut y, i == 0, |pass, y| {
-                    pass.after_step(y, found);
-                })
-                .map_err(|error| match error {
-                    IntegrationError::Rate(tau, NotPositiveDefinite) => singular(time(tau)),
-                    IntegrationError::StepUnderflow(tau) => VerifyError::StepUnderflow {
-                        pass: P::NAME,
-                        time: time(tau),
-                    },
-                    IntegrationError::StepLimit(tau) => VerifyError::StepLimit {
-                        pass: P::NAME,
-                        time: time(tau),
-                        limit: MAX_STEPS,
-                    },
-                })?;
-            pass.at_node(mesh.start(s) + i + 1, &y, found);
-            if found.overflows() {
-                return Err(VerifyError::Undefined {
-                    pass: P::NAME,
-                    time: time(ends[1]),
-                });
+        let mut overflow = None;
+        let see = |pass: &mut P, reached: Reached<'_>| {
+            match reached {
+                Reached::Step(y) => pass.after_step(y, found),
+                Reached::Node(k, y) => {
+                    pass.at_node(mesh.start(s) + k, y, found);
+                    overflow = found.overflows().then_some(nodes[k]);
+                }
             }
+            match overflow {
+                Some(_) => ControlFlow::Break(()),
+                None => ControlFlow::Continue(()),
+            }
+        };
+        integrator
+            .advance(&mut pass, nodes, &mut y, see)
+            .map_err(|error| match error {
+                IntegrationError::Rate(tau, NotPositiveDefinite) => singular(time(tau)),
+                IntegrationError::StepUnderflow(tau) => VerifyError::StepUnderflow {
+                    pass: P::NAME,
+                    time: time(tau),
+                },
+                IntegrationError::StepLimit(tau) => VerifyError::StepLimit {
+                    pass: P::NAME,
+                    time: time(tau),
+                    limit: MAX_STEPS,
+                },
+            })?;
+        if let Some(tau) = overflow {
+            return Err(VerifyError::Undefined {
+                pass: P::NAME,
+                time: time(tau),
+            });
         }
     }
     Ok(())
