@@ -10,7 +10,7 @@ use std::fmt;
 /// JSON and what programs write into it stay what they are: there these characters stand in strings
 /// alone, and mean the same written so.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
-    if !text.chars().any(steers) {
+    if !has_steering(text) {
         return Cow::Borrowed(text);
     }
     let mut shown = String::with_capacity(text.len());
@@ -53,6 +53,25 @@ pub(crate) fn xml_text(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
+/// Bytes looked at together, so that long texts without such characters take little time.
+const CHUNK: usize = 64;
+
+/// Whether a character of `text` steers.
+fn has_steering(text: &str) -> bool {
+    let steers_at = |at: usize| text[at..].chars().next().is_some_and(steers);
+    let mut chunks = text.as_bytes().chunks(CHUNK).enumerate();
+    chunks.any(|(chunk, bytes)| {
+        let suspect = bytes.iter().fold(false, |any, &b| any | may_steer(b));
+        let mut bytes = bytes.iter().enumerate();
+        suspect && bytes.any(|(i, &b)| may_steer(b) && steers_at(chunk * CHUNK + i))
+    })
+}
+
+/// Whether a character that steers may begin with this byte of UTF-8.
+fn may_steer(byte: u8) -> bool {
+    (byte < b' ') & (byte != b'\n') & (byte != b'\t') | matches!(byte, 0x7f | 0xc2 | 0xe2)
+}
+
 fn steers(c: char) -> bool {
     let turns =
         matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -73,6 +92,15 @@ mod tests {
         let json = "[\"\u{9b}\"]";
         let shown: Vec<String> = serde_json::from_str(&printable(json)).unwrap();
         assert_eq!(shown, ["\u{9b}"]);
+    }
+
+    #[test]
+    fn every_character_that_steers_is_seen_wherever_it_stands() {
+        let all = (0..=u32::from(char::MAX)).filter_map(char::from_u32);
+        for c in all {
+            let text = format!("{}°{c}", "x".repeat(61));
+            assert_eq!(has_steering(&text), steers(c), "{c:?}");
+        }
     }
 
     #[test]
