@@ -7,12 +7,15 @@
 //! ```
 
 use ffsm_ipopt::config::{Overrides, ProblemFile};
+use ffsm_ipopt::nlp::ipopt::read_by_tick;
 use ffsm_ipopt::planner::Planner;
 use std::error::Error;
 use std::path::Path;
 
 /// Runs the example; its assertions are tested.
 pub fn main() -> Result<(), Box<dyn Error>> {
+    // As the command line does.
+    read_by_tick();
     let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/config/table1-smooth.toml");
     let mut arguments = std::env::args().skip(1).peekable();
     let path = arguments.next_if(|argument| argument.ends_with(".toml"));

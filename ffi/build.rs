@@ -28,9 +28,14 @@ fn main() {
             .iter()
             .any(|path| path.join(header).exists())
     };
+    let on_linux = env::var("CARGO_CFG_TARGET_OS").is_ok_and(|system| system == "linux");
     if has("HSLLoader.h") {
         println!("cargo::rustc-cfg=ipopt_hsl_loader");
-    } else if env::var("CARGO_CFG_TARGET_OS").is_ok_and(|system| system == "linux") {
+        if on_linux {
+            println!("cargo::rerun-if-changed=src/usage.c");
+            cc::Build::new().file("src/usage.c").compile("usage");
+        }
+    } else if on_linux {
         build_bridge();
         println!("cargo::rustc-cfg=ipopt_bridge");
     }

@@ -3,5 +3,6 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    ffsm_ipopt::nlp::ipopt::read_by_tick();
     ffsm_ipopt::cli::run()
 }

@@ -12,6 +12,7 @@
 
 pub mod hsl;
 pub mod ma97;
+pub mod usage;
 
 #[allow(
     missing_docs,

@@ -28,6 +28,8 @@ pub use probe::linear_solvers;
 pub use reach::{Reach, reach_of_option, reach_of_solver};
 pub use serial::serialised;
 
+pub use ipopt_sys::usage::read_by_tick;
+
 use super::{
     Control, Deadline, HandOver, Iterate, Nlp, Progress, Settings, Size, Solution, Statistics,
     Status,
