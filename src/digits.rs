@@ -25,9 +25,43 @@ pub(crate) fn digits(value: f64, decimals: usize, significant: usize) -> String 
     format!("{value:.decimals$}")
 }
 
+/// Powers of ten up to this are exact, and so what is nearest to a quotient by them is found.
+const EXACT: i32 = 22;
+
+/// The number nearest to `value` that has `significant` digits; no negative zero. Its shortest text is that
+/// number's, and takes less time to find than a text with so many digits.
+pub(crate) fn rounded(value: f64, significant: i32) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let shift = significant - 1 - value.abs().log10().floor() as i32;
+    if shift.abs() > EXACT {
+        let text = format!("{value:.*e}", (significant - 1).max(0) as usize);
+        return text.parse().unwrap_or(value);
+    }
+    let power = 10.0_f64.powi(shift.abs());
+    match shift >= 0 {
+        true => (value * power).round() / power,
+        false => (value / power).round() * power,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::digits;
+    use super::*;
+
+    #[test]
+    fn a_rounded_number_is_that_of_its_digits() {
+        let mut random = fastrand::Rng::with_seed(3);
+        for _ in 0..100_000 {
+            let value = (random.f64() - 0.5) * 10_f64.powi(random.i32(-40..40));
+            let text = format!("{value:.5e}");
+            assert_eq!(rounded(value, 6), text.parse::<f64>().unwrap(), "{value:e}");
+        }
+        assert_eq!(rounded(9.999996, 6).to_string(), "10");
+        assert_eq!(rounded(-0.0, 6).to_string(), "0");
+        assert!(rounded(f64::NAN, 6).is_nan() && rounded(f64::INFINITY, 6).is_infinite());
+    }
 
     #[test]
     fn what_is_not_zero_is_not_shown_as_zero() {

@@ -155,13 +155,8 @@ fn data(points: &[[f64; 2]]) -> String {
 
 /// Hundredths of a point, no more digits than needed.
 fn number(value: f64) -> String {
-    let text = format!("{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".into()
-    } else {
-        text.into()
-    }
+    // The shortest text of the nearest number to so many hundredths has no more; without a negative zero.
+    ((value * 100.0).round() / 100.0 + 0.0).to_string()
 }
 
 #[cfg(test)]

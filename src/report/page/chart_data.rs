@@ -1,11 +1,12 @@
 //! The numbers behind the charts, for what the page says at the cursor and for downloads.
 
 use super::charts::Panel;
+use crate::digits;
 use crate::plot::Colour;
 use serde::Serialize;
 
-/// Digits after the first, more than a screen shows.
-const DIGITS: usize = 5;
+/// Significant digits, more than a screen shows.
+const DIGITS: i32 = 6;
 
 /// All charts of a page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -82,5 +83,5 @@ impl ChartData {
 }
 
 fn rounded(value: f64) -> f64 {
-    format!("{value:.DIGITS$e}").parse().unwrap_or(value) + 0.0
+    digits::rounded(value, DIGITS)
 }

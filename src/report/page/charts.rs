@@ -1,5 +1,6 @@
 //! The planned motion over time with its bounds, one chart a quantity.
 
+use crate::digits::rounded;
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
 use crate::ocp::Interval;
@@ -241,9 +242,7 @@ fn panel(subject: &Subject<'_>, chart: Chart) -> Panel {
 
 /// Five significant digits at most.
 pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.4e}");
-    text.parse::<f64>()
-        .map_or(text, |value| (value + 0.0).to_string())
+    rounded(value, 5).to_string()
 }
 
 /// Finite bounds, each once, in order.

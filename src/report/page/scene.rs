@@ -3,6 +3,7 @@
 use super::marks::{Mark, marks};
 use super::pose::{base_pose, from_picture};
 use super::solids::{Faceted, Solids};
+use crate::digits;
 use crate::dynamics::{Body, Model};
 use crate::problem::{KeepOut, Problem, Solid};
 use crate::system::{Trajectory, base_angles};
@@ -346,7 +347,7 @@ impl<'a> Skeleton<'a> {
 
 /// Six digits, more than are shown.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value) + 0.0
+    digits::rounded(value, 6)
 }
 
 /// The eight corners, in base axes, of the block of even density with the base's mass, mass centre
