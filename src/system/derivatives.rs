@@ -20,7 +20,8 @@ use crate::ocp::{Point, PointDerivatives};
 const PARAMETERS: usize = 4;
 const BASE: usize = 8;
 
-/// Derivatives for `system`, with as many directions in one sweep as it has use for.
+/// Derivatives for `system`, with as many directions in one sweep as it has use for; for few joints
+/// compiled for their number.
 pub(super) fn of<Sp: Space>(system: &FreeFloating<Sp>) -> Box<dyn PointDerivatives + '_> {
     match (system.joint_count(), has_fused()) {
         (2, true) => Box::new(NodeDerivatives::<Sp, InPlace<2>, 4, true>::new(system)),

@@ -101,6 +101,7 @@ impl<Sp: Algebra, J: Storage> Configuration<Sp, J> {
     }
 
     /// Base motion that keeps the momentum at zero at the given joint rates.
+    #[inline(always)]
     pub fn base_motion(&self, rates: &[f64]) -> Motion<Sp, f64> {
         let mut motion = Motion::zero();
         for (drag, &rate) in self.drag.iter().zip(rates) {

@@ -11,7 +11,8 @@ use crate::dynamics::{Data, Storage, Tree};
 /// once, overwritten at every point.
 ///
 /// The others are quantities that turn the base by [`Sensitivity::first`]'s argument: attitude
-/// parameters of a system that tumbles. `N` directions go in one sweep.
+/// parameters of a system that tumbles. `J` says where items of the joints are kept, `N` directions go
+/// in one sweep.
 #[derive(Debug)]
 pub struct Sensitivity<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> {
     pub(super) others: usize,
