@@ -1,6 +1,7 @@
 //! Scratch of the algorithms: allocated once, overwritten at every evaluation.
 
 use super::algebra::{Algebra, Vector};
+use super::tree::Link;
 use super::{Ldl, Tree};
 use crate::autodiff::Scalar;
 
@@ -11,27 +12,7 @@ use crate::autodiff::Scalar;
 /// origin of the base frame.
 #[derive(Debug, Clone)]
 pub struct Data<Sp: Algebra, S: Scalar> {
-    // Kinematics, one a joint.
-    pub(super) orientation: Vec<Sp::Orientation<S>>,
-    pub(super) origin: Vec<Sp::Linear<S>>,
-    pub(super) axis: Vec<Sp::Angular<S>>,
-    pub(super) slide: Vec<Sp::Linear<S>>,
-    pub(super) center: Vec<Sp::Linear<S>>,
-    pub(super) inertia: Vec<Sp::Inertia<S>>,
-    // Composite rigid bodies about the base origin.
-    pub(super) first_moment: Vec<Sp::Linear<S>>,
-    pub(super) composite: Vec<Sp::Inertia<S>>,
-    // Momentum of the unit rate of each joint.
-    pub(super) linear: Vec<Sp::Linear<S>>,
-    pub(super) angular: Vec<Sp::Angular<S>>,
-    pub(super) about_center: Vec<Sp::Angular<S>>,
-    pub(super) base_per_rate: Vec<Sp::Angular<S>>,
-    // Newton-Euler.
-    pub(super) omega: Vec<Sp::Angular<S>>,
-    pub(super) alpha: Vec<Sp::Angular<S>>,
-    pub(super) acceleration: Vec<Sp::Linear<S>>,
-    pub(super) force: Vec<Sp::Linear<S>>,
-    pub(super) torque: Vec<Sp::Angular<S>>,
+    pub(super) joints: Vec<JointData<Sp, S>>,
     /// Net force, and net moment about the system's mass centre, of the Newton-Euler pass.
     pub(super) net_force: Sp::Linear<S>,
     pub(super) net_torque: Sp::Angular<S>,
@@ -49,39 +30,68 @@ pub struct Data<Sp: Algebra, S: Scalar> {
     pub factors: Ldl<S>,
 }
 
+/// Results of one joint, and of the body that it moves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct JointData<Sp: Algebra, S: Scalar> {
+    // Kinematics.
+    pub orientation: Sp::Orientation<S>,
+    pub origin: Sp::Linear<S>,
+    pub axis: Sp::Angular<S>,
+    pub slide: Sp::Linear<S>,
+    pub center: Sp::Linear<S>,
+    pub inertia: Sp::Inertia<S>,
+    // Composite rigid body about the base origin.
+    pub first_moment: Sp::Linear<S>,
+    pub composite: Sp::Inertia<S>,
+    // Momentum of the unit rate.
+    pub linear: Sp::Linear<S>,
+    pub angular: Sp::Angular<S>,
+    pub about_center: Sp::Angular<S>,
+    pub base_per_rate: Sp::Angular<S>,
+    // Newton-Euler.
+    pub omega: Sp::Angular<S>,
+    pub alpha: Sp::Angular<S>,
+    pub acceleration: Sp::Linear<S>,
+    pub force: Sp::Linear<S>,
+    pub torque: Sp::Angular<S>,
+}
+
+impl<Sp: Algebra, S: Scalar> JointData<Sp, S> {
+    fn new(link: &Link<Sp>) -> Self {
+        let (linear, angular) = (Sp::Linear::zero(), Sp::Angular::zero());
+        let inertia = Sp::inertia(&Sp::aligned(), &link.inertia);
+        Self {
+            orientation: Sp::aligned(),
+            origin: linear,
+            axis: angular,
+            slide: linear,
+            center: linear,
+            inertia,
+            first_moment: linear,
+            composite: inertia,
+            linear,
+            angular,
+            about_center: angular,
+            base_per_rate: angular,
+            omega: angular,
+            alpha: angular,
+            acceleration: linear,
+            force: linear,
+            torque: angular,
+        }
+    }
+}
+
 impl<Sp: Algebra, S: Scalar> Data<Sp, S> {
     /// Scratch for `tree`.
     pub fn new(tree: &Tree<Sp>) -> Self {
         let n = tree.joint_count();
-        let linear = vec![Sp::Linear::<S>::zero(); n];
-        let angular = vec![Sp::Angular::<S>::zero(); n];
-        let inertia: Vec<Sp::Inertia<S>> = tree
-            .links
-            .iter()
-            .map(|link| Sp::inertia(&Sp::aligned(), &link.inertia))
-            .collect();
         Self {
-            orientation: vec![Sp::aligned(); n],
-            origin: linear.clone(),
-            axis: angular.clone(),
-            slide: linear.clone(),
-            center: linear.clone(),
-            first_moment: linear.clone(),
-            composite: inertia.clone(),
-            linear: linear.clone(),
-            angular: angular.clone(),
-            about_center: angular.clone(),
-            base_per_rate: angular.clone(),
-            omega: angular.clone(),
-            alpha: angular.clone(),
-            acceleration: linear.clone(),
-            force: linear,
-            torque: angular,
+            joints: tree.links.iter().map(JointData::new).collect(),
             net_force: Sp::Linear::zero(),
             net_torque: Sp::Angular::zero(),
             system_center: Sp::Linear::zero(),
             inverse_inertia: Sp::inertia(&Sp::aligned(), &tree.base_inertia),
-            inertia,
             base_rate: Sp::Angular::zero(),
             mass_matrix: vec![S::zero(); n * n],
             bias: vec![S::zero(); n],
@@ -93,13 +103,14 @@ impl<Sp: Algebra, S: Scalar> Data<Sp, S> {
 impl<Sp: Algebra> Data<Sp, f64> {
     /// Hands to `visit` all that [`Tree::mass_matrix`] leaves of the pose and the momenta, and the
     /// factors of H.
+    #[inline(always)]
     pub(super) fn visit(&mut self, visit: &mut impl FnMut(&mut [f64])) {
-        for j in 0..self.origin.len() {
-            Sp::visit_orientation(&mut self.orientation[j], visit);
-            visit(self.origin[j].components_mut());
-            visit(self.axis[j].components_mut());
-            visit(self.slide[j].components_mut());
-            visit(self.linear[j].components_mut());
+        for joint in &mut self.joints {
+            Sp::visit_orientation(&mut joint.orientation, visit);
+            visit(joint.origin.components_mut());
+            visit(joint.axis.components_mut());
+            visit(joint.slide.components_mut());
+            visit(joint.linear.components_mut());
         }
         visit(self.system_center.components_mut());
         visit(self.base_rate.components_mut());

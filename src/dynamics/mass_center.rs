@@ -9,7 +9,7 @@ impl<Sp: Algebra> Tree<Sp> {
     ///
     /// The momentum of unit joint rate, the base held, is the total mass times this change.
     pub fn system_center_by(&self, data: &Data<Sp, f64>, k: usize) -> Sp::Linear<f64> {
-        data.linear[k].times(1.0 / self.total_mass)
+        data.joints[k].linear.times(1.0 / self.total_mass)
     }
 
     /// Second derivative of the system's mass centre in the base frame by joint positions `k` and
@@ -23,7 +23,10 @@ impl<Sp: Algebra> Tree<Sp> {
         // The joint nearer to the base turns what the other one does.
         let (inner, outer) = (k.min(l), k.max(l));
         if self.carries(inner, Some(outer)) && self.links[inner].kind == JointKind::Revolute {
-            Sp::cross(&data.axis[inner], &self.system_center_by(data, outer))
+            Sp::cross(
+                &data.joints[inner].axis,
+                &self.system_center_by(data, outer),
+            )
         } else {
             Sp::Linear::zero()
         }

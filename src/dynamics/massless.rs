@@ -45,11 +45,9 @@ fn first(tree: &Tree<Spatial>, q: &[f64]) -> Option<usize> {
     tree.kinematics(q, &mut data);
     tree.momentum(&mut data);
     tree.mass_matrix(&mut data);
-    let extent = data
-        .origin
-        .iter()
-        .chain(&data.center)
-        .map(|r| r.dot(r))
+    let extent = (data.joints.iter())
+        .flat_map(|joint| [joint.origin, joint.center])
+        .map(|r| r.dot(&r))
         .fold(0.0, f64::max);
     let mut lower = vec![0.0; n * n];
     let mut pivots: Vec<f64> = Vec::with_capacity(n);

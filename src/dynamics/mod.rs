@@ -43,7 +43,9 @@ mod reach;
 mod relative_frames;
 mod sensitivity;
 pub mod space;
+mod storage;
 mod tree;
+mod unrolled;
 
 /// Largest magnitude of a length in a robot's description, m: farther than the moon.
 pub const MOST_LENGTH: f64 = 1e9;
@@ -58,4 +60,5 @@ pub use placement::Placement;
 pub use planarity::{Deviation, Plane};
 pub use reach::Ball;
 pub use sensitivity::Sensitivity;
+pub use storage::{Heap, InPlace, Storage};
 pub use tree::Tree;

@@ -3,6 +3,7 @@
 //! Derived in docs/algorithms.md#momentum-and-base-rate.
 
 use super::algebra::{Algebra, Vector};
+use super::unrolled::by_count;
 use super::{Data, JointKind, Tree};
 use crate::autodiff::Scalar;
 
@@ -13,45 +14,54 @@ impl<Sp: Algebra> Tree<Sp> {
     /// carries the linear momentum P_j and, about the system's mass centre, the angular momentum
     /// G_j.
     pub fn momentum<S: Scalar>(&self, data: &mut Data<Sp, S>) {
-        self.composite_bodies(data);
-        for (j, link) in self.links.iter().enumerate() {
+        by_count!(S, self.joint_count(), n => self.momenta(n, data));
+    }
+
+    #[inline(always)]
+    fn momenta<S: Scalar>(&self, n: usize, data: &mut Data<Sp, S>) {
+        self.composite_bodies(n, data);
+        let (center, inverse_inertia) = (data.system_center, data.inverse_inertia);
+        for (link, joint) in self.links[..n].iter().zip(&mut data.joints[..n]) {
             let (linear, angular) = match link.kind {
                 JointKind::Revolute => {
-                    let (axis, origin) = (&data.axis[j], &data.origin[j]);
-                    let arm = data.first_moment[j] - origin.times(link.carried);
-                    let about_origin = Sp::apply(&data.composite[j], axis)
-                        - Sp::moment(&data.first_moment[j], &Sp::cross(axis, origin));
+                    let (axis, origin) = (&joint.axis, &joint.origin);
+                    let arm = joint.first_moment - origin.times(link.carried);
+                    let about_origin = Sp::apply(&joint.composite, axis)
+                        - Sp::moment(&joint.first_moment, &Sp::cross(axis, origin));
                     (Sp::cross(axis, &arm), about_origin)
                 }
                 JointKind::Prismatic => (
-                    data.slide[j].times(link.carried),
-                    Sp::moment(&data.first_moment[j], &data.slide[j]),
+                    joint.slide.times(link.carried),
+                    Sp::moment(&joint.first_moment, &joint.slide),
                 ),
             };
-            data.linear[j] = linear;
-            data.angular[j] = angular;
-            data.about_center[j] = angular - Sp::moment(&data.system_center, &linear);
-            data.base_per_rate[j] = Sp::apply(&data.inverse_inertia, &data.about_center[j]);
+            joint.linear = linear;
+            joint.angular = angular;
+            joint.about_center = angular - Sp::moment(&center, &linear);
+            joint.base_per_rate = Sp::apply(&inverse_inertia, &joint.about_center);
         }
     }
 
     /// First moments and inertias of each joint's carried bodies about the base origin; mass
     /// centre and inverse inertia of the whole.
-    fn composite_bodies<S: Scalar>(&self, data: &mut Data<Sp, S>) {
-        for (j, link) in self.links.iter().enumerate() {
-            data.first_moment[j] = data.center[j].times(link.mass);
-            data.composite[j] = Sp::with_point_mass(&data.inertia[j], link.mass, &data.center[j]);
+    #[inline(always)]
+    fn composite_bodies<S: Scalar>(&self, n: usize, data: &mut Data<Sp, S>) {
+        let (links, joints) = (&self.links[..n], &mut data.joints[..n]);
+        for (link, joint) in links.iter().zip(joints.iter_mut()) {
+            joint.first_moment = joint.center.times(link.mass);
+            joint.composite = Sp::with_point_mass(&joint.inertia, link.mass, &joint.center);
         }
         let center = Sp::rotated(&Sp::aligned(), &self.base_center);
         let mut moment: Sp::Linear<S> = center.times(self.base_mass);
         let own = Sp::inertia(&Sp::aligned(), &self.base_inertia);
         let mut inertia = Sp::with_point_mass(&own, self.base_mass, &center);
-        for (j, link) in self.links.iter().enumerate().rev() {
-            let (carried_moment, carried_inertia) = (data.first_moment[j], data.composite[j]);
-            match link.parent {
+        for j in (0..n).rev() {
+            let (carried_moment, carried_inertia) = (joints[j].first_moment, joints[j].composite);
+            match links[j].parent {
                 Some(parent) => {
-                    data.first_moment[parent] += carried_moment;
-                    data.composite[parent] = Sp::sum(&data.composite[parent], &carried_inertia);
+                    let carrier = &mut joints[parent];
+                    carrier.first_moment += carried_moment;
+                    carrier.composite = Sp::sum(&carrier.composite, &carried_inertia);
                 }
                 None => {
                     moment += carried_moment;
@@ -68,8 +78,8 @@ impl<Sp: Algebra> Tree<Sp> {
     /// (length n) at zero total momentum. Needs [`Tree::momentum`].
     pub fn base_rate<S: Scalar>(&self, dq: &[S], data: &mut Data<Sp, S>) {
         let mut omega = Sp::Angular::zero();
-        for (per_rate, &rate) in data.base_per_rate.iter().zip(dq) {
-            omega -= per_rate.scaled(rate);
+        for (joint, &rate) in data.joints.iter().zip(dq) {
+            omega -= joint.base_per_rate.scaled(rate);
         }
         data.base_rate = omega;
     }

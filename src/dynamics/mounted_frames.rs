@@ -8,7 +8,9 @@ impl<Sp: Algebra> Tree<Sp> {
     /// Position of a mounted frame's origin in the base frame, m. Needs [`Tree::kinematics`].
     pub fn position<S: Scalar>(&self, mount: &Mount<Sp>, data: &Data<Sp, S>) -> Sp::Linear<S> {
         match mount.link {
-            Some(j) => data.origin[j] + Sp::rotated(&data.orientation[j], &mount.offset),
+            Some(j) => {
+                data.joints[j].origin + Sp::rotated(&data.joints[j].orientation, &mount.offset)
+            }
             None => Sp::rotated(&Sp::aligned(), &mount.offset),
         }
     }
@@ -25,10 +27,10 @@ impl<Sp: Algebra> Tree<Sp> {
         }
         match self.links[k].kind {
             JointKind::Revolute => {
-                let arm = self.position(mount, data) - data.origin[k];
-                Sp::cross(&data.axis[k], &arm)
+                let arm = self.position(mount, data) - data.joints[k].origin;
+                Sp::cross(&data.joints[k].axis, &arm)
             }
-            JointKind::Prismatic => data.slide[k],
+            JointKind::Prismatic => data.joints[k].slide,
         }
     }
 
@@ -45,7 +47,10 @@ impl<Sp: Algebra> Tree<Sp> {
         let turned =
             self.carries(inner, mount.link) && self.links[inner].kind == JointKind::Revolute;
         if turned {
-            Sp::cross(&data.axis[inner], &self.position_by(mount, data, outer))
+            Sp::cross(
+                &data.joints[inner].axis,
+                &self.position_by(mount, data, outer),
+            )
         } else {
             Sp::Linear::zero()
         }
@@ -58,7 +63,7 @@ impl<Sp: Algebra> Tree<Sp> {
         data: &Data<Sp, S>,
     ) -> Sp::Orientation<S> {
         match mount.link {
-            Some(j) => Sp::attached(&data.orientation[j], &mount.orientation),
+            Some(j) => Sp::attached(&data.joints[j].orientation, &mount.orientation),
             None => Sp::attached(&Sp::aligned(), &mount.orientation),
         }
     }

@@ -52,7 +52,7 @@ impl<Sp: Algebra> Tree<Sp> {
             return Sp::Linear::zero();
         }
         let change = self.relative_change(mount, other, data, then);
-        let turned = Sp::cross(&data.axis[first], &change).times(sense(first));
+        let turned = Sp::cross(&data.joints[first].axis, &change).times(sense(first));
         self.along_body_axes(other, data, turned)
     }
 
@@ -87,10 +87,10 @@ impl<Sp: Algebra> Tree<Sp> {
         }
         let change = match self.links[k].kind {
             JointKind::Revolute => {
-                let arm = self.position(mount, data) - data.origin[k];
-                Sp::cross(&data.axis[k], &arm)
+                let arm = self.position(mount, data) - data.joints[k].origin;
+                Sp::cross(&data.joints[k].axis, &arm)
             }
-            JointKind::Prismatic => data.slide[k],
+            JointKind::Prismatic => data.joints[k].slide,
         };
         change.times(sense)
     }
@@ -112,7 +112,7 @@ impl<Sp: Algebra> Tree<Sp> {
         vector: Sp::Linear<S>,
     ) -> Sp::Linear<S> {
         match mount.link {
-            Some(j) => Sp::along_axes(&data.orientation[j], &vector),
+            Some(j) => Sp::along_axes(&data.joints[j].orientation, &vector),
             None => vector,
         }
     }

@@ -11,33 +11,36 @@ use super::linearization::{Adjoint, Linearization, Lower};
 use super::rows::PathRows;
 use super::torques::torques;
 use crate::autodiff::{Dual, HyperDual, Scalar, has_fused};
-use crate::dynamics::Sensitivity;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
+use crate::dynamics::{Heap, InPlace, Sensitivity, Storage};
 use crate::ocp::{Point, PointDerivatives};
 
 /// Attitude parameters, at most, and those with the components of ω₀.
 const PARAMETERS: usize = 4;
 const BASE: usize = 8;
 
-/// Derivatives for `system`, with as many directions in one sweep as it has use for.
+/// Derivatives for `system`, with as many directions in one sweep as it has use for; for few joints
+/// compiled for their number.
 pub(super) fn of<Sp: Space>(system: &FreeFloating<Sp>) -> Box<dyn PointDerivatives + '_> {
-    match (system.joint_count() <= 2, has_fused()) {
-        (true, true) => Box::new(NodeDerivatives::<Sp, 4, true>::new(system)),
-        (true, false) => Box::new(NodeDerivatives::<Sp, 4, false>::new(system)),
-        (false, true) => Box::new(NodeDerivatives::<Sp, 16, true>::new(system)),
-        (false, false) => Box::new(NodeDerivatives::<Sp, 16, false>::new(system)),
+    match (system.joint_count(), has_fused()) {
+        (2, true) => Box::new(NodeDerivatives::<Sp, InPlace<2>, 4, true>::new(system)),
+        (2, false) => Box::new(NodeDerivatives::<Sp, InPlace<2>, 4, false>::new(system)),
+        (3, true) => Box::new(NodeDerivatives::<Sp, InPlace<3>, 8, true>::new(system)),
+        (3, false) => Box::new(NodeDerivatives::<Sp, InPlace<3>, 8, false>::new(system)),
+        (_, true) => Box::new(NodeDerivatives::<Sp, Heap, 16, true>::new(system)),
+        (_, false) => Box::new(NodeDerivatives::<Sp, Heap, 16, false>::new(system)),
     }
 }
 
-struct NodeDerivatives<'a, Sp: Space, const N: usize, const FUSED: bool> {
+struct NodeDerivatives<'a, Sp: Space, J: Storage, const N: usize, const FUSED: bool> {
     system: &'a FreeFloating<Sp>,
     /// States and controls that first derivatives are those of, once they are loaded.
     inputs: Vec<f64>,
     is_loaded: bool,
     /// How many numbers that takes to keep.
     kept: usize,
-    motion: Sensitivity<Sp, N, FUSED>,
+    motion: Sensitivity<Sp, J, N, FUSED>,
     /// Rates of the base that limits and costs are about, then θ̇.
     rates: Vec<f64>,
     /// Derivatives of ω₀ by η, one parameter after the other, where the system tumbles.
@@ -78,7 +81,9 @@ fn base_outputs<Sp: Space, S: Scalar>(
     }
 }
 
-impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N, FUSED> {
+impl<'a, Sp: Space, J: Storage, const N: usize, const FUSED: bool>
+    NodeDerivatives<'a, Sp, J, N, FUSED>
+{
     fn new(system: &'a FreeFloating<Sp>) -> Self {
         let plant = &system.plant;
         let (n, parameters, states) = (plant.joints(), plant.parameters(), plant.states());
@@ -106,16 +111,14 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             torque_second: vec![0.0; n * n],
             system,
         };
-        // In the plane it takes less time to load a point again than to copy.
-        if Sp::ANGLES > 1 {
-            let mut kept = 1;
-            derivatives.visit(|part| kept += part.len());
-            derivatives.kept = kept;
-        }
+        let mut kept = 1;
+        derivatives.visit(|part| kept += part.len());
+        derivatives.kept = kept;
         derivatives
     }
 
     /// Hands all that belongs to [`Self::load`] to `visit`, piece by piece.
+    #[inline(always)]
     fn visit(&mut self, mut visit: impl FnMut(&mut [f64])) {
         visit(&mut self.inputs);
         visit(&mut self.omega_by);
@@ -131,9 +134,14 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         self.system.plant.parameters()
     }
 
+    /// Joints n, a constant where the compiler knows it.
+    fn joints(&self) -> usize {
+        self.motion.joints()
+    }
+
     /// States: η, θ, θ̇.
     fn states(&self) -> usize {
-        self.system.plant.states()
+        self.parameters() + 2 * self.joints()
     }
 
     /// Free motion with its first derivatives, torques with theirs; nothing is to be done where
@@ -150,7 +158,7 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
         let system = self.system;
         let plant = &system.plant;
         let (eta, joints) = point.x.split_at(plant.parameters());
-        let (theta, dtheta) = joints.split_at(plant.joints());
+        let (theta, dtheta) = joints.split_at(self.joints());
         self.motion.load(&plant.tree, theta, dtheta, |data| {
             plant.drift.tumble(plant.attitude, eta, data);
         });
@@ -168,7 +176,7 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
             }
         }
         self.motion.first(&self.tumbled);
-        let states = plant.states();
+        let states = self.states();
         for (i, row) in self.omega_by.chunks_exact_mut(states).enumerate() {
             let (by_eta, by_joints) = row.split_at_mut(plant.parameters());
             self.motion.base_rate_by(i, by_joints, by_eta);
@@ -344,7 +352,7 @@ impl<'a, Sp: Space, const N: usize, const FUSED: bool> NodeDerivatives<'a, Sp, N
 
     /// Adds what bends in the weighted sum of the torques.
     fn add_torques(&mut self, hessian: &mut Lower<'_>) {
-        let n = self.system.joint_count();
+        let n = self.joints();
         let (first, controls) = (self.parameters(), self.states());
         self.motion.torque_curvature(
             &self.torque_weights,
@@ -376,8 +384,8 @@ fn seeded<S: Scalar, const P: usize>(values: &[f64], seed: impl Fn(f64, usize) -
     seeded
 }
 
-impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
-    for NodeDerivatives<'_, Sp, N, FUSED>
+impl<Sp: Space, J: Storage, const N: usize, const FUSED: bool> PointDerivatives
+    for NodeDerivatives<'_, Sp, J, N, FUSED>
 {
     fn kept(&self) -> usize {
         self.kept
@@ -410,7 +418,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
     fn jacobian(&mut self, point: Point<'_, f64>, jacobian: &mut [f64]) {
         self.load(&point);
         let system = self.system;
-        let n = system.joint_count();
+        let n = self.joints();
         let (parameters, states) = (self.parameters(), self.states());
         self.base_slopes(&point.x[..parameters]);
 
@@ -452,7 +460,7 @@ impl<Sp: Space, const N: usize, const FUSED: bool> PointDerivatives
     fn hessian(&mut self, point: Point<'_, f64>, weights: &[f64], hessian: &mut [f64]) {
         self.load(&point);
         let system = self.system;
-        let n = system.joint_count();
+        let n = self.joints();
         let (parameters, states) = (self.parameters(), self.states());
         self.base_bends(&point.x[..parameters]);
         self.weigh(point, weights);

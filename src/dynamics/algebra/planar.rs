@@ -63,9 +63,11 @@ impl Algebra for Planar {
     fn rotated<S: Scalar>(o: &Vector2<S>, v: &Vector2<f64>) -> Vector2<S> {
         Vector2::new(o.x * v.x - o.y * v.y, o.y * v.x + o.x * v.y)
     }
+    #[inline(always)]
     fn visit_orientation(orientation: &mut Vector2<f64>, visit: &mut impl FnMut(&mut [f64])) {
         visit(orientation.components_mut());
     }
+    #[inline(always)]
     fn visit_inertia(inertia: &mut f64, visit: &mut impl FnMut(&mut [f64])) {
         visit(std::slice::from_mut(inertia));
     }

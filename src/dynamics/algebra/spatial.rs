@@ -67,11 +67,13 @@ impl Algebra for Spatial {
     fn rotated<S: Scalar>(o: &[Vector3<S>; 3], v: &Vector3<f64>) -> Vector3<S> {
         o[0].times(v.x) + o[1].times(v.y) + o[2].times(v.z)
     }
+    #[inline(always)]
     fn visit_orientation(orientation: &mut [Vector3<f64>; 3], visit: &mut impl FnMut(&mut [f64])) {
         for column in orientation {
             visit(column.components_mut());
         }
     }
+    #[inline(always)]
     fn visit_inertia(inertia: &mut Symmetric<f64>, visit: &mut impl FnMut(&mut [f64])) {
         visit(&mut inertia.diagonal);
         visit(&mut inertia.products);

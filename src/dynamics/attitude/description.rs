@@ -21,6 +21,7 @@ pub trait Attitude<Sp: Algebra>: Copy + Debug + PartialEq + Send + Sync + 'stati
     fn names(self) -> &'static [&'static str];
 
     /// Number of parameters.
+    #[inline(always)]
     fn count(self) -> usize {
         self.names().len()
     }

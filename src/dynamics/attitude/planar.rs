@@ -16,6 +16,7 @@ impl Attitude<Planar> for PlanarAngle {
         None
     }
 
+    #[inline(always)]
     fn names(self) -> &'static [&'static str] {
         &["base attitude"]
     }

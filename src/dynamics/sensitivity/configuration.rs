@@ -2,28 +2,28 @@
 
 use crate::autodiff::Scalar;
 use crate::dynamics::algebra::{Algebra, BodyInertia, CompositeInertia, Force, Motion, Vector};
-use crate::dynamics::{Data, JointKind, Tree};
+use crate::dynamics::{Data, JointKind, Storage, Tree};
 
 /// Everything that depends on the joint positions alone.
 #[derive(Debug)]
-pub(super) struct Configuration<Sp: Algebra> {
+pub(super) struct Configuration<Sp: Algebra, J: Storage> {
     pub data: Data<Sp, f64>,
-    pub parents: Vec<Option<usize>>,
+    pub parents: J::Array<Option<usize>>,
     pub total_mass: f64,
     pub center: Sp::Linear<f64>,
     pub inverse_inertia: Sp::Inertia<f64>,
     pub base: BodyInertia<Sp>,
-    pub bodies: Vec<BodyInertia<Sp>>,
+    pub bodies: J::Array<BodyInertia<Sp>>,
     /// Of the whole robot, and of what each joint carries.
     pub whole: CompositeInertia<Sp>,
-    pub carried: Vec<CompositeInertia<Sp>>,
+    pub carried: J::Array<CompositeInertia<Sp>>,
     /// Motion of unit joint rates.
-    pub axes: Vec<Motion<Sp, f64>>,
+    pub axes: J::Array<Motion<Sp, f64>>,
     /// Motion of the base against unit joint rates, sign reversed.
-    pub drag: Vec<Motion<Sp, f64>>,
+    pub drag: J::Array<Motion<Sp, f64>>,
 }
 
-impl<Sp: Algebra> Configuration<Sp> {
+impl<Sp: Algebra, J: Storage> Configuration<Sp, J> {
     pub fn new(tree: &Tree<Sp>) -> Self {
         let n = tree.joint_count();
         let body = |mass: f64, inertia: &Sp::Inertia<f64>| BodyInertia {
@@ -34,27 +34,26 @@ impl<Sp: Algebra> Configuration<Sp> {
         let mut base = body(tree.base_mass, &tree.base_inertia);
         base.center = tree.base_center;
         let whole = CompositeInertia::of(&base);
+        let mut carried = J::array(whole, n);
+        let mut parents = J::array(None, n);
+        let mut bodies = J::array(base, n);
+        for (j, link) in tree.links.iter().enumerate() {
+            carried[j].mass = link.carried;
+            parents[j] = link.parent;
+            bodies[j] = body(link.mass, &link.inertia);
+        }
         Self {
             whole,
-            carried: (tree.links.iter())
-                .map(|link| CompositeInertia {
-                    mass: link.carried,
-                    ..whole
-                })
-                .collect(),
+            carried,
             data: Data::new(tree),
-            parents: tree.links.iter().map(|link| link.parent).collect(),
+            parents,
             total_mass: tree.total_mass,
             center: Sp::Linear::<f64>::zero(),
             inverse_inertia: tree.base_inertia,
             base,
-            bodies: tree
-                .links
-                .iter()
-                .map(|l| body(l.mass, &l.inertia))
-                .collect(),
-            axes: vec![Motion::zero(); n],
-            drag: vec![Motion::zero(); n],
+            bodies,
+            axes: J::array(Motion::zero(), n),
+            drag: J::array(Motion::zero(), n),
         }
     }
 
@@ -64,26 +63,27 @@ impl<Sp: Algebra> Configuration<Sp> {
         self.center = data.system_center;
         self.inverse_inertia = data.inverse_inertia;
         self.whole = CompositeInertia::of(&self.base);
-        for (j, link) in tree.links.iter().enumerate() {
+        let n = self.axes.len();
+        let (links, joints) = (&tree.links[..n], &data.joints[..n]);
+        for (j, (link, joint)) in links.iter().zip(joints).enumerate() {
             let carried = &mut self.carried[j];
-            carried.moment = data.first_moment[j];
-            carried.inertia = data.composite[j];
+            carried.moment = joint.first_moment;
+            carried.inertia = joint.composite;
             if link.parent.is_none() {
                 self.whole.add(carried);
             }
             let body = &mut self.bodies[j];
-            body.center = data.center[j];
-            body.rotational = data.inertia[j];
+            body.center = joint.center;
+            body.rotational = joint.inertia;
             self.axes[j] = match link.kind {
                 JointKind::Revolute => {
-                    let axis = data.axis[j];
-                    let at_origin = Sp::cross_constant(&axis, &data.origin[j]).times(-1.0);
-                    Motion::new(axis, at_origin)
+                    let at_origin = Sp::cross_constant(&joint.axis, &joint.origin).times(-1.0);
+                    Motion::new(joint.axis, at_origin)
                 }
-                JointKind::Prismatic => Motion::new(Sp::Angular::zero(), data.slide[j]),
+                JointKind::Prismatic => Motion::new(Sp::Angular::zero(), joint.slide),
             };
-            let angular = data.base_per_rate[j];
-            let linear = data.linear[j].times(1.0 / self.total_mass);
+            let angular = joint.base_per_rate;
+            let linear = joint.linear.times(1.0 / self.total_mass);
             let about_center = Sp::cross_constant(&angular, &self.center);
             self.drag[j] = Motion::new(angular, linear.plus_times(&about_center, -1.0));
         }
@@ -101,6 +101,7 @@ impl<Sp: Algebra> Configuration<Sp> {
     }
 
     /// Base motion that keeps the momentum at zero at the given joint rates.
+    #[inline(always)]
     pub fn base_motion(&self, rates: &[f64]) -> Motion<Sp, f64> {
         let mut motion = Motion::zero();
         for (drag, &rate) in self.drag.iter().zip(rates) {
@@ -111,7 +112,7 @@ impl<Sp: Algebra> Configuration<Sp> {
 }
 
 /// Steps from body to body.
-impl<Sp: Algebra> Configuration<Sp> {
+impl<Sp: Algebra, J: Storage> Configuration<Sp, J> {
     /// What the carrier of joint `j` has or, where it stands on the base, `base`.
     #[inline(always)]
     pub fn carrier<T: Copy>(&self, j: usize, of_bodies: &[T], base: T) -> T {

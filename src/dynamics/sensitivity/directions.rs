@@ -1,6 +1,7 @@
 //! Derivatives in all directions, one number after the other, from which sweeps take theirs.
 
 use crate::autodiff::Dual;
+use crate::dynamics::Storage;
 use crate::dynamics::algebra::{Algebra, Force, Vector};
 
 /// Place of a direction in the sweep of `N` that starts at direction `start`.
@@ -11,21 +12,21 @@ pub(super) fn in_sweep<const N: usize>(start: usize, direction: usize) -> Option
 
 /// What the joints change while the motion of the base is held.
 #[derive(Debug)]
-pub(super) struct Directions<Sp: Algebra> {
+pub(super) struct Directions<Sp: Algebra, J: Storage> {
     /// In momentum and force of the whole.
     pub momentum: ForceRow<Sp>,
     pub force: ForceRow<Sp>,
     /// In the force of each joint. What a joint does not reach stays zero.
-    pub joints: Vec<Row>,
+    pub joints: J::Array<Row>,
 }
 
-impl<Sp: Algebra> Directions<Sp> {
+impl<Sp: Algebra, J: Storage> Directions<Sp, J> {
     /// Room for `n` joints and `width` directions, those included that fill the last sweep up.
     pub fn new(n: usize, width: usize) -> Self {
         Self {
             momentum: ForceRow::new(width),
             force: ForceRow::new(width),
-            joints: vec![Row(vec![0.0; width]); n],
+            joints: J::array(Row(vec![0.0; width]), n),
         }
     }
 }
@@ -47,17 +48,19 @@ impl Row {
     }
 }
 
-/// Derivatives of a force, by components.
+/// Derivatives of a force, one component after the other.
 #[derive(Debug)]
 pub(super) struct ForceRow<Sp: Algebra> {
-    components: Vec<Row>,
+    components: Row,
+    width: usize,
     space: std::marker::PhantomData<Sp>,
 }
 
 impl<Sp: Algebra> ForceRow<Sp> {
     fn new(width: usize) -> Self {
         Self {
-            components: vec![Row(vec![0.0; width]); Sp::ANGLES + Sp::LENGTHS],
+            components: Row(vec![0.0; (Sp::ANGLES + Sp::LENGTHS) * width]),
+            width,
             space: std::marker::PhantomData,
         }
     }
@@ -65,12 +68,14 @@ impl<Sp: Algebra> ForceRow<Sp> {
     /// Makes `by` the derivative in `direction`.
     #[inline(always)]
     pub fn set(&mut self, direction: usize, by: &Force<Sp, f64>) {
-        let (angular, linear) = self.components.split_at_mut(Sp::ANGLES);
-        for (row, &by) in angular.iter_mut().zip(by.angular.components()) {
-            row.0[direction] = by;
-        }
-        for (row, &by) in linear.iter_mut().zip(by.linear.components()) {
-            row.0[direction] = by;
+        let components = by.angular.components().iter().chain(by.linear.components());
+        for (row, &by) in self
+            .components
+            .0
+            .chunks_exact_mut(self.width)
+            .zip(components)
+        {
+            row[direction] = by;
         }
     }
 
@@ -81,13 +86,14 @@ impl<Sp: Algebra> ForceRow<Sp> {
         &self,
         start: usize,
     ) -> Force<Sp, Dual<N, FUSED>> {
-        let (angular, linear) = self.components.split_at(Sp::ANGLES);
         let mut force: Force<Sp, Dual<N, FUSED>> = Force::zero();
-        for (to, row) in force.angular.components_mut().iter_mut().zip(angular) {
-            *to = row.sweep(start);
+        let angular = force.angular.components_mut().iter_mut();
+        for (i, to) in angular.enumerate() {
+            *to = self.components.sweep(i * self.width + start);
         }
-        for (to, row) in force.linear.components_mut().iter_mut().zip(linear) {
-            *to = row.sweep(start);
+        let linear = force.linear.components_mut().iter_mut();
+        for (i, to) in (Sp::ANGLES..).zip(linear) {
+            *to = self.components.sweep(i * self.width + start);
         }
         force
     }

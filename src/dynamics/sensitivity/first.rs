@@ -3,9 +3,10 @@
 use super::Sensitivity;
 use super::directions::{Directions, in_sweep};
 use crate::autodiff::{Dual, Kernel, dispatch};
+use crate::dynamics::Storage;
 use crate::dynamics::algebra::{Algebra, Coriolis, Force, Vector, plus_inner};
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Sensitivity<Sp, J, N, FUSED> {
     /// First derivatives in all directions, after [`Sensitivity::load`]. `omega_by` holds the
     /// derivatives of the base's angular velocity by the other directions, one after the other.
     pub fn first(&mut self, omega_by: &[f64]) {
@@ -18,11 +19,13 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     }
 }
 
-struct First<'a, Sp: Algebra, const N: usize, const FUSED: bool> {
-    of: &'a mut Sensitivity<Sp, N, FUSED>,
+struct First<'a, Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> {
+    of: &'a mut Sensitivity<Sp, J, N, FUSED>,
 }
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Kernel for First<'_, Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Kernel
+    for First<'_, Sp, J, N, FUSED>
+{
     #[inline(always)]
     fn run(self) {
         self.of.carry();
@@ -34,7 +37,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Kernel for First<'_, Sp, N,
     }
 }
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Sensitivity<Sp, J, N, FUSED> {
     /// The motion of every body, and what those that each joint carries need for it.
     #[inline(always)]
     fn carry(&mut self) {
@@ -98,7 +101,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// of the joints, with the motion of the base held.
     #[inline(always)]
     fn spread(&mut self) {
-        let (fixed, n) = (&self.fixed, self.joints);
+        let (fixed, n) = (&self.fixed, self.joints());
         let Directions {
             momentum,
             force,
@@ -127,7 +130,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// Derivatives in the directions of one sweep.
     #[inline(always)]
     fn differentiate(&mut self, sweep: usize) {
-        let (start, n) = (sweep * N, self.joints);
+        let (start, n) = (sweep * N, self.joints());
         let (fixed, directions) = (&self.fixed, &self.directions);
         let tangent = &mut self.tangents[sweep];
 

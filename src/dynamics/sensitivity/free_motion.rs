@@ -5,64 +5,63 @@ use super::directions::Directions;
 use super::workspace::{Adjoint, Carried, Field, JointStep, Tangent};
 use crate::autodiff::{Dual, Scalar};
 use crate::dynamics::algebra::{Algebra, Force, Motion, Vector};
-use crate::dynamics::{Data, Tree};
+use crate::dynamics::{Data, Storage, Tree};
 
 /// Free motion at one point with its derivatives, in directions z = [θ, θ̇, others]: allocated
 /// once, overwritten at every point.
 ///
 /// The others are quantities that turn the base by [`Sensitivity::first`]'s argument: attitude
-/// parameters of a system that tumbles. `N` directions go in one sweep.
+/// parameters of a system that tumbles. `J` says where items of the joints are kept, `N` directions go
+/// in one sweep.
 #[derive(Debug)]
-pub struct Sensitivity<Sp: Algebra, const N: usize, const FUSED: bool> {
-    pub(super) joints: usize,
+pub struct Sensitivity<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> {
     pub(super) others: usize,
-    pub(super) fixed: Configuration<Sp>,
+    pub(super) fixed: Configuration<Sp, J>,
     /// Motion of the base and of the joints.
     pub(super) velocity: Motion<Sp, f64>,
     pub(super) acceleration: Motion<Sp, f64>,
-    pub(super) rates: Vec<f64>,
-    pub(super) accelerations: Vec<f64>,
+    pub(super) rates: J::Array<f64>,
+    pub(super) accelerations: J::Array<f64>,
     /// Change of the base's motion by each of the other directions.
     pub(super) spun: Vec<Motion<Sp, f64>>,
     /// First derivatives, by sweeps.
-    pub(super) tangents: Vec<Tangent<Sp, N, FUSED>>,
-    pub(super) residual: Vec<Dual<N, FUSED>>,
-    pub(super) carried: Carried<Sp>,
-    pub(super) steps: Vec<JointStep<Sp>>,
-    pub(super) directions: Directions<Sp>,
-    pub(super) adjoint: Adjoint<Sp>,
+    pub(super) tangents: Vec<Tangent<Sp, J, N, FUSED>>,
+    pub(super) residual: J::Array<Dual<N, FUSED>>,
+    pub(super) carried: Carried<Sp, J>,
+    pub(super) steps: J::Array<JointStep<Sp>>,
+    pub(super) directions: Directions<Sp, J>,
+    pub(super) adjoint: Adjoint<Sp, J>,
     /// Momentum-free motions of the controls and of the torques' weights.
-    pub(super) controls: Field<Sp>,
-    pub(super) weights: Field<Sp>,
+    pub(super) controls: Field<Sp, J>,
+    pub(super) weights: Field<Sp, J>,
     /// Second derivatives, the lower triangle by rows as wide as all sweeps.
     pub(super) hessian: Vec<f64>,
 }
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Sensitivity<Sp, J, N, FUSED> {
     /// Room for the derivatives of `tree`, with `others` directions beyond θ and θ̇.
     pub fn new(tree: &Tree<Sp>, others: usize) -> Self {
         let n = tree.joint_count();
         let directions = 2 * n + others;
         let sweeps = directions.div_ceil(N);
         Self {
-            joints: n,
             others,
             fixed: Configuration::new(tree),
             velocity: Motion::zero(),
             acceleration: Motion::zero(),
-            rates: vec![0.0; n],
-            accelerations: vec![0.0; n],
+            rates: J::array(0.0, n),
+            accelerations: J::array(0.0, n),
             spun: vec![Motion::zero(); others],
             tangents: (0..sweeps)
                 .map(|_| Tangent {
                     velocity: Motion::zero(),
                     acceleration: Motion::zero(),
-                    joints: vec![Dual::constant(0.0); n],
+                    joints: J::array(Dual::constant(0.0), n),
                 })
                 .collect(),
-            residual: vec![Dual::constant(0.0); n],
+            residual: J::array(Dual::constant(0.0), n),
             carried: Carried::new(n),
-            steps: vec![JointStep::zero(); n],
+            steps: J::array(JointStep::zero(), n),
             directions: Directions::new(n, sweeps * N),
             adjoint: Adjoint::new(n),
             controls: Field::new(n),
@@ -71,9 +70,16 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         }
     }
 
+    /// Number of joints n.
+    #[inline(always)]
+    pub fn joints(&self) -> usize {
+        self.steps.len()
+    }
+
     /// Number of directions.
+    #[inline(always)]
     pub fn directions(&self) -> usize {
-        2 * self.joints + self.others
+        2 * self.joints() + self.others
     }
 
     /// The free motion at the joint positions `q` and rates `dq`; `spin` adds to the base's angular
@@ -103,8 +109,8 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         let data = &fixed.data;
         let omega = data.base_rate;
         let mut momentum = Sp::Linear::<f64>::zero();
-        for (linear, &rate) in data.linear.iter().zip(dq) {
-            momentum = momentum.plus_times(linear, rate);
+        for (joint, &rate) in data.joints.iter().zip(dq) {
+            momentum = momentum.plus_times(&joint.linear, rate);
         }
         let at_origin = Sp::cross_constant(&omega, &fixed.center).times(-1.0);
         self.velocity = Motion::new(
@@ -116,7 +122,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
         let force = data.net_force;
         let moment = data.net_torque.plus(&Sp::moment(&fixed.center, &force));
         let mut acceleration = fixed.settled(&Force::new(moment, force));
-        for (drag, &a) in fixed.drag.iter().zip(&self.accelerations) {
+        for (drag, &a) in fixed.drag.iter().zip(self.accelerations.iter()) {
             acceleration.add_times(drag, a);
         }
         let centripetal = Sp::cross(&omega, &self.velocity.linear).times(-1.0);
@@ -145,13 +151,13 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// Derivatives of component `i` of the base's angular velocity, as
     /// [`Sensitivity::acceleration_by`] has them.
     pub fn base_rate_by(&self, i: usize, by_joints: &mut [f64], by_others: &mut [f64]) {
-        let component = |sweep| component::<Sp, N, FUSED>(sweep, i);
+        let component = |sweep| component::<Sp, J, N, FUSED>(sweep, i);
         self.copy(component, by_joints, by_others);
     }
 
     fn copy<'s>(
         &'s self,
-        number: impl Fn(&'s Tangent<Sp, N, FUSED>) -> &'s Dual<N, FUSED>,
+        number: impl Fn(&'s Tangent<Sp, J, N, FUSED>) -> &'s Dual<N, FUSED>,
         by_joints: &mut [f64],
         by_others: &mut [f64],
     ) {
@@ -171,8 +177,8 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
 }
 
 /// Component `i` of the base's angular velocity.
-fn component<Sp: Algebra, const N: usize, const FUSED: bool>(
-    sweep: &Tangent<Sp, N, FUSED>,
+fn component<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool>(
+    sweep: &Tangent<Sp, J, N, FUSED>,
     i: usize,
 ) -> &Dual<N, FUSED> {
     &sweep.velocity.angular.components()[i]

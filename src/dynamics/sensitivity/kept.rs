@@ -1,18 +1,20 @@
 //! What first derivatives leave to second ones at the same point.
 
 use super::Sensitivity;
+use crate::dynamics::Storage;
 use crate::dynamics::algebra::{Algebra, Vector};
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Sensitivity<Sp, J, N, FUSED> {
     /// Hands to `visit`, piece by piece and always in the same order, all the numbers that
     /// [`Sensitivity::second`], [`Sensitivity::torque_curvature`] and what reads first derivatives
     /// need of [`Sensitivity::load`], [`Sensitivity::first`] and [`Sensitivity::torque_by`].
+    #[inline(always)]
     pub fn visit(&mut self, visit: &mut impl FnMut(&mut [f64])) {
         let fixed = &mut self.fixed;
         fixed.data.visit(visit);
         visit(fixed.center.components_mut());
         Sp::visit_inertia(&mut fixed.inverse_inertia, visit);
-        for j in 0..self.joints {
+        for j in 0..self.steps.len() {
             let body = &mut fixed.bodies[j];
             visit(body.center.components_mut());
             Sp::visit_inertia(&mut body.rotational, visit);
@@ -43,7 +45,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
                     }
                 });
             }
-            for joint in &mut tangent.joints {
+            for joint in tangent.joints.iter_mut() {
                 visit(&mut joint.gradient);
             }
         }

@@ -3,9 +3,10 @@
 use super::Sensitivity;
 use super::workspace::JointGradient;
 use crate::autodiff::{Dual, Kernel, Scalar, Times, dispatch};
+use crate::dynamics::Storage;
 use crate::dynamics::algebra::{Algebra, AngularMap, Force, Motion, Vector, plus_inner};
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Sensitivity<Sp, J, N, FUSED> {
     /// Second derivatives of Σ `accelerations`·q̈ + Σ `turning`·ω₀, after [`Sensitivity::first`].
     ///
     /// How ω₀ depends on the other directions is held straight; its curvature, weighted with
@@ -24,12 +25,14 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     }
 }
 
-struct Second<'a, Sp: Algebra, const N: usize, const FUSED: bool> {
-    of: &'a mut Sensitivity<Sp, N, FUSED>,
+struct Second<'a, Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> {
+    of: &'a mut Sensitivity<Sp, J, N, FUSED>,
     turning: &'a [f64],
 }
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Kernel
+    for Second<'_, Sp, J, N, FUSED>
+{
     #[inline(always)]
     fn run(self) {
         let Self { of, turning } = self;
@@ -41,7 +44,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Kernel for Second<'_, Sp, N
     }
 }
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Sensitivity<Sp, J, N, FUSED> {
     /// The virtual motion and what it makes of the bodies that each joint carries; returns the
     /// matrix of how two changes of the whole robot's velocity weigh together.
     #[inline(always)]
@@ -116,13 +119,12 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
                 velocity_by_rate: bent(axis),
             };
         }
-        let n = self.joints;
-        for j in 0..n {
+        for j in 0..fixed.axes.len() {
             let own = &adjoint.gradient[j];
             for k in fixed.path(j) {
                 let inner = &adjoint.gradient[k].virtual_motion;
-                adjoint.by_accelerations[k * n + j] = inner.dot(&self.steps[j].momentum[1]);
-                adjoint.by_accelerations[j * n + k] = own.acceleration.dot(&fixed.axes[k]);
+                adjoint.by_accelerations[k][j] = inner.dot(&self.steps[j].momentum[1]);
+                adjoint.by_accelerations[j][k] = own.acceleration.dot(&fixed.axes[k]);
             }
         }
     }
@@ -130,7 +132,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// Half of what directions imply for base and accelerations: rows weigh, columns imply.
     #[inline(always)]
     fn contract(&mut self, whole: &AngularMap<Sp>) {
-        let n = self.joints;
+        let n = self.joints();
         let width = self.tangents.len() * N;
         for row in 0..self.directions() {
             // What the base's own change brings is counted from both sides.
@@ -148,8 +150,8 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
                     let mut weight = own.velocity;
                     weight.angular = weight.angular.plus(&turned);
                     sum = velocity.dot(&weight) + acceleration.dot(&own.acceleration);
-                    let by = &self.adjoint.by_accelerations[row * n..(row + 1) * n];
-                    for (joint, &by) in tangent.joints.iter().zip(by) {
+                    let by = &self.adjoint.by_accelerations[row];
+                    for (joint, &by) in tangent.joints.iter().zip(by.iter()) {
                         sum = Times::<f64>::plus_times(sum, *joint, by);
                     }
                 } else {
@@ -180,7 +182,7 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
     /// Adds the second derivatives in the directions of two joints.
     #[inline(always)]
     fn join(&mut self) {
-        let n = self.joints;
+        let n = self.joints();
         let width = self.tangents.len() * N;
         let hessian = &mut self.hessian;
         for (j, outer) in self.adjoint.gradient.iter().enumerate() {

@@ -8,9 +8,10 @@ use super::Sensitivity;
 use super::configuration::Configuration;
 use super::workspace::{Field, JointStep};
 use crate::autodiff::{Kernel, dispatch};
+use crate::dynamics::Storage;
 use crate::dynamics::algebra::{Algebra, Force};
 
-impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
+impl<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> Sensitivity<Sp, J, N, FUSED> {
     /// ∂(Hu)/∂θ, n×n by rows, at fixed u; after [`Sensitivity::first`].
     pub fn torque_by(&mut self, u: &[f64], by: &mut [f64]) {
         dispatch(First {
@@ -42,15 +43,15 @@ impl<Sp: Algebra, const N: usize, const FUSED: bool> Sensitivity<Sp, N, FUSED> {
 }
 
 /// First derivatives.
-struct First<'a, Sp: Algebra> {
-    fixed: &'a Configuration<Sp>,
+struct First<'a, Sp: Algebra, J: Storage> {
+    fixed: &'a Configuration<Sp, J>,
     steps: &'a [JointStep<Sp>],
-    field: &'a mut Field<Sp>,
+    field: &'a mut Field<Sp, J>,
     rates: &'a [f64],
     by: &'a mut [f64],
 }
 
-impl<Sp: Algebra> Kernel for First<'_, Sp> {
+impl<Sp: Algebra, J: Storage> Kernel for First<'_, Sp, J> {
     #[inline(always)]
     fn run(self) {
         let Self { fixed, field, .. } = self;
@@ -63,7 +64,7 @@ impl<Sp: Algebra> Kernel for First<'_, Sp> {
         // Of all bodies and the base there is none.
         let mut forgotten = Force::zero();
         fixed.gather(&mut field.momentum, &mut forgotten, Force::add);
-        let n = self.rates.len();
+        let n = fixed.axes.len();
         for k in 0..n {
             let axis = &fixed.axes[k];
             let motion = field.motion[k].cross(axis);
@@ -87,14 +88,14 @@ impl<Sp: Algebra> Kernel for First<'_, Sp> {
 }
 
 /// Second derivatives.
-struct Second<'a, Sp: Algebra> {
-    fixed: &'a Configuration<Sp>,
-    controls: &'a Field<Sp>,
-    weights: &'a Field<Sp>,
+struct Second<'a, Sp: Algebra, J: Storage> {
+    fixed: &'a Configuration<Sp, J>,
+    controls: &'a Field<Sp, J>,
+    weights: &'a Field<Sp, J>,
     second: &'a mut [f64],
 }
 
-impl<Sp: Algebra> Kernel for Second<'_, Sp> {
+impl<Sp: Algebra, J: Storage> Kernel for Second<'_, Sp, J> {
     #[inline(always)]
     fn run(self) {
         let Self {

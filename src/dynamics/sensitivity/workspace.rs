@@ -1,40 +1,41 @@
 //! Intermediate results at one point.
 
 use crate::autodiff::Dual;
+use crate::dynamics::Storage;
 use crate::dynamics::algebra::{Algebra, AngularMap, Coriolis, Force, Motion, Vector};
 
 /// How the motion of base and joints changes in the directions of one sweep.
 #[derive(Debug)]
-pub(super) struct Tangent<Sp: Algebra, const N: usize, const FUSED: bool> {
+pub(super) struct Tangent<Sp: Algebra, J: Storage, const N: usize, const FUSED: bool> {
     /// Of the base.
     pub velocity: Motion<Sp, Dual<N, FUSED>>,
     /// The part of the bodies' accelerations that is common to all, Γ of [`JointStep`]; only its
     /// derivatives are of meaning.
     pub acceleration: Motion<Sp, Dual<N, FUSED>>,
     /// Of the joints' accelerations.
-    pub joints: Vec<Dual<N, FUSED>>,
+    pub joints: J::Array<Dual<N, FUSED>>,
 }
 
 /// The free motion of every body, and sums over the bodies that each joint carries.
 #[derive(Debug)]
-pub(super) struct Carried<Sp: Algebra> {
-    pub velocity: Vec<Motion<Sp, f64>>,
-    pub acceleration: Vec<Motion<Sp, f64>>,
-    pub momentum: Vec<Force<Sp, f64>>,
-    pub force: Vec<Force<Sp, f64>>,
-    pub coriolis: Vec<Coriolis<Sp>>,
+pub(super) struct Carried<Sp: Algebra, J: Storage> {
+    pub velocity: J::Array<Motion<Sp, f64>>,
+    pub acceleration: J::Array<Motion<Sp, f64>>,
+    pub momentum: J::Array<Force<Sp, f64>>,
+    pub force: J::Array<Force<Sp, f64>>,
+    pub coriolis: J::Array<Coriolis<Sp>>,
     /// Of the whole robot.
     pub whole: Coriolis<Sp>,
 }
 
-impl<Sp: Algebra> Carried<Sp> {
+impl<Sp: Algebra, J: Storage> Carried<Sp, J> {
     pub fn new(n: usize) -> Self {
         Self {
-            velocity: vec![Motion::zero(); n],
-            acceleration: vec![Motion::zero(); n],
-            momentum: vec![Force::zero(); n],
-            force: vec![Force::zero(); n],
-            coriolis: vec![Coriolis::zero(); n],
+            velocity: J::array(Motion::zero(), n),
+            acceleration: J::array(Motion::zero(), n),
+            momentum: J::array(Force::zero(), n),
+            force: J::array(Force::zero(), n),
+            coriolis: J::array(Coriolis::zero(), n),
             whole: Coriolis::zero(),
         }
     }
@@ -73,22 +74,22 @@ impl<Sp: Algebra> JointStep<Sp> {
 
 /// What the multipliers make of the motion.
 #[derive(Debug)]
-pub(super) struct Adjoint<Sp: Algebra> {
+pub(super) struct Adjoint<Sp: Algebra, J: Storage> {
     /// Multipliers of the joints' residuals: rates of a virtual motion without momentum.
-    pub rates: Vec<f64>,
+    pub rates: J::Array<f64>,
     /// The motion, rigid about the mass centre, whose momentum the base's own rate is weighted
     /// with.
     pub rigid: Motion<Sp, f64>,
-    pub virtual_motion: Vec<Motion<Sp, f64>>,
+    pub virtual_motion: J::Array<Motion<Sp, f64>>,
     /// Sums over the bodies that each joint carries: momentum of the virtual motion, what a change
     /// of their velocity weighs, and the matrix of how two such changes weigh together.
-    pub virtual_momentum: Vec<Force<Sp, f64>>,
-    pub weight: Vec<Sp::Angular<f64>>,
-    pub curvature: Vec<AngularMap<Sp>>,
-    pub gradient: Vec<JointGradient<Sp>>,
-    /// n×n: second derivatives by the position of the row's joint and the acceleration of the
+    pub virtual_momentum: J::Array<Force<Sp, f64>>,
+    pub weight: J::Array<Sp::Angular<f64>>,
+    pub curvature: J::Array<AngularMap<Sp>>,
+    pub gradient: J::Array<JointGradient<Sp>>,
+    /// By rows: second derivatives by the position of the row's joint and the acceleration of the
     /// column's; zero where neither joint carries the other.
-    pub by_accelerations: Vec<f64>,
+    pub by_accelerations: J::Array<J::Array<f64>>,
 }
 
 /// How the change by one joint of the bodies that it carries changes the weights of further
@@ -105,7 +106,7 @@ pub(super) struct JointGradient<Sp: Algebra> {
     pub velocity_by_rate: Sp::Angular<f64>,
 }
 
-impl<Sp: Algebra> Adjoint<Sp> {
+impl<Sp: Algebra, J: Storage> Adjoint<Sp, J> {
     pub fn new(n: usize) -> Self {
         let gradient = JointGradient {
             virtual_motion: Motion::zero(),
@@ -115,37 +116,37 @@ impl<Sp: Algebra> Adjoint<Sp> {
             velocity_by_rate: Sp::Angular::<f64>::zero(),
         };
         Self {
-            rates: vec![0.0; n],
+            rates: J::array(0.0, n),
             rigid: Motion::zero(),
-            virtual_motion: vec![Motion::zero(); n],
-            virtual_momentum: vec![Force::zero(); n],
-            weight: vec![Sp::Angular::<f64>::zero(); n],
-            curvature: vec![AngularMap::zero(); n],
-            gradient: vec![gradient; n],
-            by_accelerations: vec![0.0; n * n],
+            virtual_motion: J::array(Motion::zero(), n),
+            virtual_momentum: J::array(Force::zero(), n),
+            weight: J::array(Sp::Angular::<f64>::zero(), n),
+            curvature: J::array(AngularMap::zero(), n),
+            gradient: J::array(gradient, n),
+            by_accelerations: J::array(J::array(0.0, n), n),
         }
     }
 }
 
 /// A motion without momentum, and its derivatives by the joint positions at fixed joint rates.
 #[derive(Debug)]
-pub(super) struct Field<Sp: Algebra> {
-    pub motion: Vec<Motion<Sp, f64>>,
+pub(super) struct Field<Sp: Algebra, J: Storage> {
+    pub motion: J::Array<Motion<Sp, f64>>,
     /// Of the bodies that each joint carries.
-    pub momentum: Vec<Force<Sp, f64>>,
+    pub momentum: J::Array<Force<Sp, f64>>,
     /// Change of the motion of those bodies as they see it, and of their momentum as the carrier
     /// does, by the joint's position.
-    pub motion_by: Vec<Motion<Sp, f64>>,
-    pub momentum_by: Vec<Force<Sp, f64>>,
+    pub motion_by: J::Array<Motion<Sp, f64>>,
+    pub momentum_by: J::Array<Force<Sp, f64>>,
 }
 
-impl<Sp: Algebra> Field<Sp> {
+impl<Sp: Algebra, J: Storage> Field<Sp, J> {
     pub fn new(n: usize) -> Self {
         Self {
-            motion: vec![Motion::zero(); n],
-            momentum: vec![Force::zero(); n],
-            motion_by: vec![Motion::zero(); n],
-            momentum_by: vec![Force::zero(); n],
+            motion: J::array(Motion::zero(), n),
+            momentum: J::array(Force::zero(), n),
+            motion_by: J::array(Motion::zero(), n),
+            momentum_by: J::array(Force::zero(), n),
         }
     }
 }
