@@ -85,13 +85,13 @@ fn exponent(sizes: &[usize], times: &[f64]) -> f64 {
 }
 
 fn table(what: &str, sizes: &[usize], time: impl Fn(usize) -> [f64; 3]) {
-    println!("\n{what:>10}  derivatives / ms  linear systems / ms  iteration / ms");
+    println!("\n{what:>11}  derivatives / ms  linear systems / ms  iteration / ms");
     let rows: Vec<[f64; 3]> = sizes
         .iter()
         .map(|&size| {
             let row = time(size);
             println!(
-                "{size:>10}  {:>16.2}  {:>19.2}  {:>14.2}",
+                "{size:>11}  {:>16.2}  {:>19.2}  {:>14.2}",
                 row[0], row[1], row[2]
             );
             row
@@ -99,7 +99,7 @@ fn table(what: &str, sizes: &[usize], time: impl Fn(usize) -> [f64; 3]) {
         .collect();
     let fitted = [0, 1, 2].map(|i| exponent(sizes, &rows.iter().map(|r| r[i]).collect::<Vec<_>>()));
     println!(
-        "{:>10}  {:>16.2}  {:>19.2}  {:>14.2}",
+        "{:>11}  {:>16.2}  {:>19.2}  {:>14.2}",
         "exponent", fitted[0], fitted[1], fitted[2]
     );
 }
@@ -112,6 +112,10 @@ fn main() {
     let mesh = |points: usize| Mesh::uniform(points / 4, 4).expect("a mesh");
     table("joints", &[2, 4, 7, 14, 28], |n| {
         iteration(&chain(n), mesh(20))
+    });
+    // A mesh as plans begin with.
+    table("10×5 joints", &[7, 14, 28, 40], |n| {
+        iteration(&chain(n), Mesh::uniform(10, 5).expect("a mesh"))
     });
     table("points", &[100, 200, 400, 800, 1600], |points| {
         iteration(&chain(3), mesh(points))

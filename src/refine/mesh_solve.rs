@@ -104,8 +104,15 @@ impl<O: Ocp> MeshSolver<'_, O> {
                 settings.max_iterations = most;
                 settings.warm_start = settings.warm_start.map(|_| STRUCTURE_BARRIER);
             }
-            let mut solved =
-                self.solve(&mut program, &units, settings, iterate, statistics, monitor)?;
+            let units = (!units.are_one()).then_some(units);
+            let mut solved = self.solve(
+                &mut program,
+                units.as_ref(),
+                settings,
+                iterate,
+                statistics,
+                monitor,
+            )?;
             nlp_iterations += solved.nlp_iterations;
             solved.nlp_iterations = nlp_iterations;
             let again = conditioning.settle(&solved.trajectory, solved.status);
@@ -160,12 +167,12 @@ impl<O: Ocp> MeshSolver<'_, O> {
         (settings, iterate)
     }
 
-    /// Solves `program` in `units` from `iterate`, and should a warm start fail, once more without
+    /// Solves `program` in `units`, or in its own, from `iterate`, and should a warm start fail, once more without
     /// multipliers.
     fn solve(
         &self,
         program: &mut Transcription<'_, O>,
-        units: &Units,
+        units: Option<&Units>,
         mut settings: nlp::Settings,
         iterate: Iterate,
         statistics: &mut Statistics,
@@ -205,17 +212,17 @@ impl<O: Ocp> MeshSolver<'_, O> {
     }
 }
 
-/// Solves `program` in `units`; start and result are in its own.
+/// Solves `program` in `units`, where there are any; start and result are in its own.
 fn in_units<O: Ocp>(
     program: &mut Transcription<'_, O>,
-    units: &Units,
+    units: Option<&Units>,
     settings: &nlp::Settings,
     start: &Iterate,
     monitor: &mut dyn FnMut(&Progress) -> Control,
 ) -> Result<nlp::Solution, ipopt::IpoptError> {
-    if units.are_one() {
+    let Some(units) = units else {
         return ipopt::solve(program, settings, start, monitor);
-    }
+    };
     let mut scaled = Scaled::new(program, units);
     let mut solution = ipopt::solve(&mut scaled, settings, &units.scaled(start), monitor)?;
     solution.iterate = units.unscaled(&solution.iterate);

@@ -7,7 +7,7 @@
 
 use super::interrupt;
 use super::ma97_bridge::with_trouble;
-use super::structure::{Structure, Structures};
+use super::structure;
 use super::trouble::Trouble;
 use crate::nlp::{Control, Deadline, Evaluations, HandOver, Nlp, Progress, Undefined};
 use ipopt_sys::{self as ip, Bool, Index, Number, UserDataPtr};
@@ -20,7 +20,6 @@ use std::time::{Duration, Instant};
 pub(super) struct Context<'a, N: Nlp + ?Sized> {
     nlp: &'a mut N,
     monitor: &'a mut dyn FnMut(&Progress) -> Control,
-    structure: &'a Structures,
     deadline: Deadline,
     /// Whether the multifrontal solver serves, and MUMPS could.
     bridged: bool,
@@ -53,14 +52,12 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
     pub(super) fn new(
         nlp: &'a mut N,
         monitor: &'a mut dyn FnMut(&Progress) -> Control,
-        structure: &'a Structures,
         deadline: Deadline,
         bridged: bool,
     ) -> Self {
         Self {
             nlp,
             monitor,
-            structure,
             deadline,
             bridged,
             begun: false,
@@ -94,6 +91,13 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
         }));
         *counter(&mut self.record.evaluations) += 1;
         self.record.derivatives += begin.elapsed();
+        self.answer(outcome)
+    }
+
+    /// Writes a structure; false to Ipopt where that is not what it was announced as.
+    fn structure(&mut self, body: impl FnOnce(&N) -> bool) -> Bool {
+        let nlp = &*self.nlp;
+        let outcome = catch_unwind(AssertUnwindSafe(|| body(nlp)));
         self.answer(outcome)
     }
 
@@ -218,7 +222,13 @@ pub(super) unsafe extern "C" fn jacobian<N: Nlp + ?Sized>(
     let context = unsafe { context::<N>(user_data) };
     if values.is_null() {
         // SAFETY: without values, Ipopt passes rows and columns of this length.
-        return unsafe { copy(&context.structure.jacobian, nonzeros, rows, columns) };
+        let (rows, columns) = unsafe { (output(rows, nonzeros), output(columns, nonzeros)) };
+        return context.structure(|nlp| {
+            let fill = |rows: &mut [usize], columns: &mut [usize]| {
+                nlp.jacobian_structure(rows, columns);
+            };
+            structure::write(nlp.size().jacobian_nonzeros, fill, rows, columns)
+        });
     }
     // SAFETY: with values, Ipopt passes x of length n and one value a nonzero.
     let (x, values) = unsafe { (input(x, n), output(values, nonzeros)) };
@@ -243,7 +253,13 @@ pub(super) unsafe extern "C" fn hessian<N: Nlp + ?Sized>(
     let context = unsafe { context::<N>(user_data) };
     if values.is_null() {
         // SAFETY: without values, Ipopt passes rows and columns of this length.
-        return unsafe { copy(&context.structure.hessian, nonzeros, rows, columns) };
+        let (rows, columns) = unsafe { (output(rows, nonzeros), output(columns, nonzeros)) };
+        return context.structure(|nlp| {
+            let fill = |rows: &mut [usize], columns: &mut [usize]| {
+                nlp.hessian_structure(rows, columns);
+            };
+            structure::write(nlp.size().hessian_nonzeros, fill, rows, columns)
+        });
     }
     // SAFETY: with values, Ipopt passes x of length n, multipliers of length m and one value a
     // nonzero.
@@ -283,24 +299,4 @@ pub(super) unsafe extern "C" fn intermediate<N: Nlp + ?Sized>(
         steps: [primal_step, dual_step],
         line_search_trials: u32::try_from(line_search_trials).unwrap_or(0),
     })
-}
-
-/// Copies a structure to where Ipopt wants it.
-///
-/// # Safety
-/// `rows` and `columns` point to `nonzeros` indices each, or `nonzeros` is 0.
-unsafe fn copy(
-    structure: &Structure,
-    nonzeros: Index,
-    rows: *mut Index,
-    columns: *mut Index,
-) -> Bool {
-    // SAFETY: the caller's promise.
-    let (rows, columns) = unsafe { (output(rows, nonzeros), output(columns, nonzeros)) };
-    let fits = rows.len() == structure.rows.len();
-    if fits {
-        rows.copy_from_slice(&structure.rows);
-        columns.copy_from_slice(&structure.columns);
-    }
-    ip::from_bool(fits)
 }

@@ -80,13 +80,12 @@ pub fn solve<N: Nlp + ?Sized>(
     let size = nlp.size();
     input::check_start(nlp, size, settings, start)?;
     let bounds = input::Bounds::of(nlp, size)?;
-    let structure = structure::Structures::of(nlp, size)?;
+    structure::check(nlp, size)?;
     let choice = Choice::of(settings)?;
     let mut attempt = Attempt {
         nlp,
         size,
-        bounds,
-        structure,
+        bounds: Some(bounds),
         deadline: Deadline::after(settings.time_limit),
     };
     let (mut first, hand_over) = attempt.run(&choice, settings, start, monitor)?;
@@ -132,8 +131,8 @@ struct Handing {
 struct Attempt<'a, N: Nlp + ?Sized> {
     nlp: &'a mut N,
     size: Size,
-    bounds: input::Bounds,
-    structure: structure::Structures,
+    /// Bounds for the first attempt.
+    bounds: Option<input::Bounds>,
     deadline: Deadline,
 }
 
@@ -149,7 +148,13 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
         let permit = serial::permit(&choice.solver)?;
         let begin = Instant::now();
         let session = Session::begin(choice.hsl);
-        let mut problem = Problem::create(self.size, &mut self.bounds)?;
+        let mut bounds = match self.bounds.take() {
+            Some(bounds) => bounds,
+            None => input::Bounds::of(&*self.nlp, self.size)?,
+        };
+        let mut problem = Problem::create(self.size, &mut bounds)?;
+        // Ipopt has copied them.
+        drop(bounds);
         options::apply(&mut problem, settings, choice)?;
         let bridged = choice.bridge.is_some();
         let timing = if settings.timing && !bridged {
@@ -162,13 +167,7 @@ impl<N: Nlp + ?Sized> Attempt<'_, N> {
         let mut iterate = input::initial(start, self.size, warm);
         let mut constraints = vec![f64::NAN; self.size.constraints];
         let mut objective = f64::NAN;
-        let mut context = Context::new(
-            &mut *self.nlp,
-            monitor,
-            &self.structure,
-            self.deadline,
-            bridged,
-        );
+        let mut context = Context::new(&mut *self.nlp, monitor, self.deadline, bridged);
         let code = problem.solve(&mut iterate, &mut constraints, &mut objective, &mut context);
         let record = context.finish();
         // Ipopt closes the timing file and frees the linear solver only with the problem.
