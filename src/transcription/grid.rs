@@ -63,14 +63,14 @@ impl Grid {
 
     /// Free breakpoints beside point `k`: variable, and −1 at the start, +1 at the end of its
     /// segment, the derivative of the width.
-    pub fn sides(&self, k: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub fn sides(&self, k: usize) -> impl Iterator<Item = (usize, i8)> + '_ {
         let s = self.segments[k];
         self.knots
             .iter()
             .filter_map(move |&(breakpoint, variable)| {
                 let side = match breakpoint {
-                    b if b == s => -1.0,
-                    b if b == s + 1 => 1.0,
+                    b if b == s => -1,
+                    b if b == s + 1 => 1,
                     _ => return None,
                 };
                 Some((variable, side))

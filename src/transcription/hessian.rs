@@ -4,6 +4,7 @@ use super::Layout;
 use super::evaluation::Evaluation;
 use super::grid::Grid;
 use super::jacobian::end_column;
+use super::triplets::{Triplets, index};
 use crate::nlp::Undefined;
 use crate::ocp::Ocp;
 use std::collections::HashMap;
@@ -27,9 +28,9 @@ struct TimeTerms {
 #[derive(Debug, Default)]
 struct KnotTerms {
     /// (input, slot, side).
-    coupling: Vec<Vec<(usize, usize, f64)>>,
+    coupling: Vec<Vec<(usize, usize, i8)>>,
     /// With the duration, where that is free: (slot, side).
-    duration: Vec<Vec<(usize, f64)>>,
+    duration: Vec<Vec<(usize, i8)>>,
 }
 
 /// What the Lagrangian σf + Σ λg is made with.
@@ -41,14 +42,16 @@ pub(super) struct Multipliers<'a> {
     pub rows: &'a [f64],
 }
 
+/// The slot of what has none.
+const NONE: u32 = u32::MAX;
+
 /// The lower triangle of ∇²L: triplets and where each point's block goes.
 #[derive(Debug)]
 pub(super) struct Hessian {
     layout: Layout,
-    pub rows: Vec<usize>,
-    pub columns: Vec<usize>,
-    /// Slot of each nonzero of each point's block; `usize::MAX` where it involves the time.
-    node_slots: Vec<usize>,
+    pub places: Triplets,
+    /// Slot of each nonzero of each point's block; [`NONE`] where it involves the time.
+    node_slots: Vec<u32>,
     end_slots: Vec<usize>,
     /// Slots and block of each way-point.
     way_points: Vec<(Vec<usize>, Vec<f64>)>,
@@ -68,16 +71,16 @@ impl Hessian {
         let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let mut slots = Slots::default();
-        let mut node_slots = Vec::new();
+        let mut node_slots = Vec::with_capacity(layout.points * sparsity.hessian.len());
         for k in 0..layout.points {
             for &(i, j) in &sparsity.hessian {
                 let own = layout.is_own(k, i) && layout.is_own(k, j);
                 node_slots.push(if i == time {
-                    usize::MAX
+                    NONE
                 } else if own {
-                    slots.new_slot(layout.input(k, i), layout.input(k, j))
+                    index(slots.new_slot(layout.input(k, i), layout.input(k, j)))
                 } else {
-                    slots.slot(layout.input(k, i), layout.input(k, j))
+                    index(slots.slot(layout.input(k, i), layout.input(k, j)))
                 });
             }
         }
@@ -108,8 +111,7 @@ impl Hessian {
         let knots = KnotTerms::new(layout, evaluation, &mut slots);
         Self {
             layout: layout.clone(),
-            rows: slots.rows,
-            columns: slots.columns,
+            places: slots.close(),
             node_slots,
             end_slots,
             way_points,
@@ -139,8 +141,8 @@ impl Hessian {
         }
         evaluation.node_hessians(x, &self.weights, &mut self.blocks);
         for (h, &slot) in self.blocks.iter().zip(&self.node_slots) {
-            if slot != usize::MAX {
-                values[slot] += h;
+            if slot != NONE {
+                values[slot as usize] += h;
             }
         }
         if self.layout.free_duration {
@@ -288,11 +290,11 @@ impl Hessian {
             }
         }
         for &(input, slot, side) in &self.knots.coupling[k] {
-            values[slot] += side * self.by_input[input];
+            values[slot] += f64::from(side) * self.by_input[input];
         }
         if layout.free_duration {
             for &(slot, side) in &self.knots.duration[k] {
-                values[slot] += side * sum / duration;
+                values[slot] += f64::from(side) * sum / duration;
             }
         }
     }
@@ -387,8 +389,7 @@ fn coupled_inputs<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, k: us
 /// Triplets without repetition.
 #[derive(Default)]
 struct Slots {
-    rows: Vec<usize>,
-    columns: Vec<usize>,
+    places: Triplets,
     known: HashMap<(usize, usize), usize>,
 }
 
@@ -409,8 +410,12 @@ impl Slots {
 
     /// The slot of a pair that is never asked for again.
     fn new_slot(&mut self, row: usize, column: usize) -> usize {
-        self.rows.push(row);
-        self.columns.push(column);
-        self.rows.len() - 1
+        self.places.push(row, column)
+    }
+
+    /// All of them.
+    fn close(mut self) -> Triplets {
+        self.places.close();
+        self.places
     }
 }

@@ -21,6 +21,7 @@ mod quadrature;
 mod reach;
 mod scales;
 mod structure;
+mod triplets;
 mod way_point;
 
 pub use discretization::Discretization;

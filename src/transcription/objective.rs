@@ -49,7 +49,7 @@ pub(super) fn gradient<O: Ocp>(
         }
         for (variable, side) in grid.sides(k) {
             let by_width = 0.5 * duration * grid.weights[k] * evaluation.outputs(k)[cost];
-            gradient[variable] += side * by_width;
+            gradient[variable] += f64::from(side) * by_width;
         }
     }
     let inputs = &evaluation.end_derivatives.sparsity().jacobian[evaluation.ends.rows];

@@ -15,9 +15,9 @@ const VALUES: usize = 10;
 const SHARES: usize = 8;
 /// Most threads.
 const MOST: usize = 8;
-/// Most numbers that first derivatives of all points leave to second ones: 16 MiB, so that memory
-/// stays bounded on the largest meshes.
-const MOST_KEPT: usize = 1 << 21;
+/// Most numbers that first derivatives of all points leave to second ones: 2 MiB, what caches hold:
+/// from memory they are no sooner there than computed.
+const MOST_KEPT: usize = 1 << 18;
 
 /// Evaluates every point, each by itself, so that results do not depend on the number of threads.
 pub(super) struct Points<'a, O: Ocp> {

@@ -2,11 +2,12 @@
 
 use super::evaluation::Evaluation;
 use super::hessian::{Hessian, Multipliers};
-use super::jacobian::Jacobian;
+use super::jacobian::{Jacobian, Parts};
 use super::names::Names;
 use super::objective;
 use super::quadrature::integrals;
 use super::structure::LinearRow;
+use super::triplets::Triplets;
 use super::{Discretization, Layout, Patterns, Structure};
 use crate::collocation::Mesh;
 use crate::nlp::{Iterate, Nlp, Size, Undefined};
@@ -78,7 +79,12 @@ impl<'a, O: Ocp> Transcription<'a, O> {
         );
         Self {
             names: Names::new(formulation.clone(), &mesh),
-            jacobian: Jacobian::new(&layout, &mesh, &structural, &evaluation),
+            jacobian: Jacobian::new(&Parts {
+                layout: &layout,
+                mesh: &mesh,
+                structural: &structural,
+                evaluation: &evaluation,
+            }),
             hessian: Hessian::new(&layout, &evaluation),
             formulation,
             structure,
@@ -87,6 +93,15 @@ impl<'a, O: Ocp> Transcription<'a, O> {
             layout,
             evaluation,
         }
+    }
+
+    fn jacobian_places(&self) -> Triplets {
+        Jacobian::places(&Parts {
+            layout: &self.layout,
+            mesh: &self.mesh,
+            structural: &self.structural,
+            evaluation: &self.evaluation,
+        })
     }
 
     /// Where variables and rows stand.
@@ -171,8 +186,8 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
         Size {
             variables: self.layout.variables(),
             constraints: self.layout.rows(),
-            jacobian_nonzeros: self.jacobian.rows.len(),
-            hessian_nonzeros: self.hessian.rows.len(),
+            jacobian_nonzeros: self.jacobian.nonzeros,
+            hessian_nonzeros: self.hessian.places.len(),
         }
     }
 
@@ -273,13 +288,11 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     }
 
     fn jacobian_structure(&self, rows: &mut [usize], columns: &mut [usize]) {
-        rows.copy_from_slice(&self.jacobian.rows);
-        columns.copy_from_slice(&self.jacobian.columns);
+        self.jacobian_places().write(rows, columns);
     }
 
     fn hessian_structure(&self, rows: &mut [usize], columns: &mut [usize]) {
-        rows.copy_from_slice(&self.hessian.rows);
-        columns.copy_from_slice(&self.hessian.columns);
+        self.hessian.places.write(rows, columns);
     }
 
     fn new_point(&mut self) {
@@ -362,8 +375,9 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
 
     fn jacobian(&mut self, x: &[f64], values: &mut [f64]) -> Result<(), Undefined> {
         self.need_all(x)?;
+        let duration = self.evaluation.duration(x);
         self.jacobian
-            .values(self.evaluation.duration(x), &self.evaluation, values);
+            .values(duration, &self.mesh, &self.evaluation, values);
         Ok(())
     }
 
@@ -452,12 +466,11 @@ impl<O: Ocp> Transcription<'_, O> {
     /// The gradient of the Lagrangian, bounds left out.
     fn slope(&mut self, iterate: &Iterate) -> Option<Vec<f64>> {
         let mut slope = vec![0.0; self.layout.variables()];
-        let mut values = vec![0.0; self.jacobian.rows.len()];
+        let mut values = vec![0.0; self.jacobian.nonzeros];
         self.new_point();
         self.gradient(&iterate.x, &mut slope).ok()?;
         Nlp::jacobian(self, &iterate.x, &mut values).ok()?;
-        let places = self.jacobian.rows.iter().zip(&self.jacobian.columns);
-        for ((&row, &column), value) in places.zip(values) {
+        for ((row, column), value) in self.jacobian_places().iter().zip(values) {
             slope[column] += iterate.multipliers[row] * value;
         }
         Some(slope)
