@@ -11,8 +11,8 @@ use crate::transcription::Discretization;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::ops::ControlFlow;
 
-const RELATIVE: f64 = 1e-11;
-const ABSOLUTE: f64 = 1e-13;
+const RELATIVE: f64 = 1e-12;
+const ABSOLUTE: f64 = 1e-14;
 /// Far above what any plan needs; ends the integration of one that runs away.
 const MAX_STEPS: usize = 1_000_000;
 

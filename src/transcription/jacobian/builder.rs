@@ -1,63 +1,30 @@
-//! Structure and values of the constraint Jacobian.
+//! Puts the Jacobian together, row by row.
 
-use super::Layout;
-use super::evaluation::Evaluation;
-use super::structure::LinearRow;
-use super::triplets::{Triplets, index};
-use crate::autodiff::Sparsity;
+use super::slots::{end_column, first_slot};
+use super::term::Term;
 use crate::collocation::Mesh;
 use crate::ocp::Ocp;
+use crate::transcription::Layout;
+use crate::transcription::evaluation::Evaluation;
+use crate::transcription::structure::LinearRow;
+use crate::transcription::triplets::{Triplets, index};
 use std::collections::BTreeMap;
 
-/// What a nonzero of the Jacobian is made of, beyond its constant part. In 32 bits: large meshes have
-/// hundreds of thousands.
-#[derive(Debug, Clone, Copy)]
-enum Term {
-    /// −(T·width/2)·(derivative `slot` of the point).
-    Rate { point: u32, slot: u32 },
-    /// −(width/2)·f_row − (T·width/2)·α·(time derivative, where there is one).
-    RateByDuration { point: u32, row: u32 },
-    /// Derivative `slot` of the point as it is.
-    Path { point: u32, slot: u32 },
-    /// α·(time derivative of a path row).
-    PathByDuration { point: u32, slot: u32 },
-    /// Derivative `slot` of the ends.
-    End { slot: u32 },
-    /// Derivative `slot` of a way-point.
-    WayPoint { way_point: u32, slot: u32 },
-    /// −(T·quadrature weight)·(derivative `slot` of the point).
-    Integrand { point: u32, slot: u32 },
-    /// −(quadrature weight)·(g_output + T·α·(time derivative, where there is one)).
-    IntegrandByDuration { point: u32, output: u32 },
-    /// −side·(T/2)·f_row: by a free breakpoint at the start (−1) or the end (+1) of the segment.
-    RateByKnot { point: u32, row: u32, side: i8 },
-    /// −side·(T/2)·(weight of the rule)·g_output.
-    IntegrandByKnot { point: u32, output: u32, side: i8 },
-}
-
-/// The constraint Jacobian of a transcription: constant parts and terms to add.
-#[derive(Debug)]
-pub(super) struct Jacobian {
-    pub nonzeros: usize,
+/// Nonzeros, as they are put together.
+#[derive(Debug, Default)]
+pub(super) struct Builder {
+    pub places: Triplets,
     /// The first nonzero of every row (26), by points. With those after it, it has the coefficients of the
     /// differentiation matrix.
-    defects: Vec<u32>,
+    pub defects: Vec<u32>,
     /// Other constant parts: nonzero and value.
-    constants: Vec<(u32, f64)>,
+    pub constants: Vec<(u32, f64)>,
     /// (nonzero, term), in the order of the nonzeros.
-    terms: Vec<(u32, Term)>,
-    /// Which derivative of the point is that of each output by the time.
-    by_time: Vec<Option<usize>>,
-}
-
-/// The Jacobian and the places of its nonzeros, as they are put together.
-struct Builder {
-    places: Triplets,
-    jacobian: Jacobian,
+    pub terms: Vec<(u32, Term)>,
 }
 
 /// What a Jacobian is made from.
-pub(super) struct Parts<'p, 'a, O: Ocp> {
+pub(in crate::transcription) struct Parts<'p, 'a, O: Ocp> {
     pub layout: &'p Layout,
     pub mesh: &'p Mesh,
     pub structural: &'p [LinearRow],
@@ -65,29 +32,16 @@ pub(super) struct Parts<'p, 'a, O: Ocp> {
 }
 
 impl Builder {
-    fn build<O: Ocp>(parts: &Parts<'_, '_, O>) -> Self {
+    pub fn build<O: Ocp>(parts: &Parts<'_, '_, O>) -> Self {
         let Parts {
             layout,
             mesh,
             structural,
             evaluation,
         } = *parts;
-        let sparsity = evaluation.node_derivatives().sparsity();
-        let time = evaluation.node.time();
-        let by_time = |output: usize| {
-            let inputs = &sparsity.jacobian[output];
-            let time = inputs.iter().position(|&input| input == time);
-            time.map(|k| first_slot(sparsity, output) + k)
-        };
         let mut builder = Self {
-            places: Triplets::default(),
-            jacobian: Jacobian {
-                nonzeros: 0,
-                defects: Vec::with_capacity(layout.points * layout.states),
-                constants: Vec::new(),
-                terms: Vec::new(),
-                by_time: (0..sparsity.jacobian.len()).map(by_time).collect(),
-            },
+            defects: Vec::with_capacity(layout.points * layout.states),
+            ..Self::default()
         };
         for s in 0..mesh.segments() {
             for i in 0..mesh.rule(s).len() {
@@ -114,22 +68,21 @@ impl Builder {
                 builder.push_constant(layout.structural_row(i), column, weight);
             }
         }
-        builder.jacobian.nonzeros = builder.places.len();
-        builder.jacobian.terms.shrink_to_fit();
+        builder.terms.shrink_to_fit();
         builder
     }
 
     fn push(&mut self, row: usize, column: usize, term: Option<Term>) -> u32 {
         let nonzero = index(self.places.push(row, column));
         if let Some(term) = term {
-            self.jacobian.terms.push((nonzero, term));
+            self.terms.push((nonzero, term));
         }
         nonzero
     }
 
     fn push_constant(&mut self, row: usize, column: usize, value: f64) {
         let nonzero = self.push(row, column, None);
-        self.jacobian.constants.push((nonzero, value));
+        self.constants.push((nonzero, value));
     }
 
     /// Rows (26) of point `i` of segment `s`.
@@ -149,7 +102,7 @@ impl Builder {
             let row = layout.defect(point, r);
             let inputs = &sparsity.jacobian[r];
             let find = |input: usize| inputs.iter().position(|&c| c == input).map(|k| slot + k);
-            self.jacobian.defects.push(index(self.places.len()));
+            self.defects.push(index(self.places.len()));
             for j in 0..mesh.rule(s).differentiation(i).len() {
                 let term = (j == i).then(|| find(r)).flatten();
                 let term = term.map(|slot| Term::Rate {
@@ -321,117 +274,8 @@ impl Builder {
         }
         for (column, terms) in shared {
             let nonzero = self.push(row, column, None);
-            self.jacobian
-                .terms
+            self.terms
                 .extend(terms.into_iter().map(|term| (nonzero, term)));
         }
-    }
-}
-
-impl Jacobian {
-    pub fn new<O: Ocp>(parts: &Parts<'_, '_, O>) -> Self {
-        Builder::build(parts).jacobian
-    }
-
-    /// Rows and columns of the nonzeros. They are asked for as a solve begins, and not kept: Ipopt has its
-    /// own copy.
-    pub fn places<O: Ocp>(parts: &Parts<'_, '_, O>) -> Triplets {
-        Builder::build(parts).places
-    }
-
-    pub fn values<O: Ocp>(
-        &self,
-        duration: f64,
-        mesh: &Mesh,
-        evaluation: &Evaluation<'_, O>,
-        values: &mut [f64],
-    ) {
-        values.fill(0.0);
-        self.differentiate(mesh, values);
-        for &(nonzero, constant) in &self.constants {
-            values[nonzero as usize] = constant;
-        }
-        let width = evaluation.node_derivatives().jacobian_nonzeros();
-        let grid = &evaluation.grid;
-        let first =
-            |point: u32, slot: u32| evaluation.first[point as usize * width + slot as usize];
-        let output = |point: u32, output: u32| evaluation.outputs(point as usize)[output as usize];
-        let fraction = |point: u32| evaluation.fraction(point as usize);
-        let half_width = |point: u32| grid.half_width[point as usize];
-        let quadrature = |point: u32| grid.quadrature[point as usize];
-        // An output and, by the time, its derivative.
-        let by_duration = |point: u32, row: u32| {
-            let slot = self.by_time[row as usize];
-            let by_time = slot.map_or(0.0, |slot| {
-                duration * fraction(point) * evaluation.first[point as usize * width + slot]
-            });
-            output(point, row) + by_time
-        };
-        for &(nonzero, term) in &self.terms {
-            values[nonzero as usize] += match term {
-                Term::Rate { point, slot } => -duration * half_width(point) * first(point, slot),
-                Term::RateByDuration { point, row } => -half_width(point) * by_duration(point, row),
-                Term::Path { point, slot } => first(point, slot),
-                Term::PathByDuration { point, slot } => fraction(point) * first(point, slot),
-                Term::End { slot } => evaluation.end_first[slot as usize],
-                Term::WayPoint { way_point, slot } => {
-                    evaluation.way_points[way_point as usize].first[slot as usize]
-                }
-                Term::Integrand { point, slot } => {
-                    -duration * quadrature(point) * first(point, slot)
-                }
-                Term::IntegrandByDuration { point, output } => {
-                    -quadrature(point) * by_duration(point, output)
-                }
-                Term::RateByKnot { point, row, side } => {
-                    -f64::from(side) * 0.5 * duration * output(point, row)
-                }
-                Term::IntegrandByKnot {
-                    point,
-                    output: row,
-                    side,
-                } => {
-                    let half = 0.5 * duration * grid.weights[point as usize];
-                    -f64::from(side) * half * output(point, row)
-                }
-            };
-        }
-    }
-
-    /// Writes the coefficients of the differentiation matrix.
-    fn differentiate(&self, mesh: &Mesh, values: &mut [f64]) {
-        let points = (0..mesh.segments()).flat_map(|s| {
-            let rule = mesh.rule(s);
-            (0..rule.len()).map(|i| rule.differentiation(i))
-        });
-        let states = self.defects.len() / mesh.points().max(1);
-        for (firsts, coefficients) in self.defects.chunks(states.max(1)).zip(points) {
-            for &first in firsts {
-                let first = first as usize;
-                values[first..first + coefficients.len()].copy_from_slice(coefficients);
-            }
-        }
-    }
-}
-
-/// The first nonzero of `output` among those of a function's Jacobian.
-pub(super) fn first_slot(sparsity: &Sparsity, output: usize) -> usize {
-    sparsity.jacobian[..output].iter().map(Vec::len).sum()
-}
-
-/// Variable behind an input of the boundary function (x(t₀), x(t_f), p, q, t₀, T).
-pub(super) fn end_column(layout: &Layout, input: usize) -> usize {
-    let n = layout.states;
-    let times = 2 * n + layout.parameters + layout.integrals;
-    if input < n {
-        layout.state(0, input)
-    } else if input < 2 * n {
-        layout.state(layout.points, input - n)
-    } else if input < times {
-        layout.parameter(input - 2 * n)
-    } else if input == times {
-        layout.initial_time()
-    } else {
-        layout.duration()
     }
 }
