@@ -15,9 +15,9 @@ const VALUES: usize = 10;
 const SHARES: usize = 8;
 /// Most threads.
 const MOST: usize = 8;
-/// Most numbers that first derivatives of all points leave to second ones: 2 MiB, what caches hold:
-/// from memory they are no sooner there than computed.
-const MOST_KEPT: usize = 1 << 18;
+/// Most numbers that first derivatives of all points leave to second ones: 8 MiB. More would come from
+/// memory no sooner than they are computed, and none are kept.
+const MOST_KEPT: usize = 1 << 20;
 
 /// Evaluates every point, each by itself, so that results do not depend on the number of threads.
 pub(super) struct Points<'a, O: Ocp> {
@@ -67,8 +67,8 @@ impl<'a, O: Ocp> Points<'a, O> {
             inputs: vec![0.0; node.inputs()],
         };
         let piece = derivatives.kept();
-        let pieces = MOST_KEPT.checked_div(piece).unwrap_or(0);
-        let kept = vec![0.0; piece * pieces.min(fractions.len())];
+        let all = piece * fractions.len();
+        let kept = vec![0.0; if all > MOST_KEPT { 0 } else { all }];
         let mut workers = vec![worker(derivatives)];
         if work >= LEAST_WORK {
             let count = parallel::thread_count().min(MOST);
