@@ -4,6 +4,7 @@
 //! step control of section II.4.
 
 use super::ode::{IntegrationError, Ode};
+use super::steps::Steps;
 
 /// The integrator with its workspace; the step found lasts from one interval to the next.
 #[derive(Debug)]
@@ -12,15 +13,13 @@ pub struct DormandPrince {
     pub relative: f64,
     /// Absolute tolerance.
     pub absolute: f64,
-    /// Most steps allowed, taken or rejected.
-    pub max_steps: usize,
-    taken: usize,
-    rejected: usize,
-    /// Length of the next step; zero where none is known.
-    step: f64,
+    steps: Steps,
     stages: [Vec<f64>; 7],
     trial: Vec<f64>,
 }
+
+/// Part of what would change the state by as much as it is, for a first step.
+const CAUTION: f64 = 1e-3;
 
 const C: [f64; 7] = [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
 const A: [&[f64]; 7] = [
@@ -63,15 +62,12 @@ const E: [f64; 7] = [
 ];
 
 impl DormandPrince {
-    /// An integrator of `size` equations.
+    /// An integrator of `size` equations, with at most `max_steps` steps, taken or rejected.
     pub fn new(size: usize, relative: f64, absolute: f64, max_steps: usize) -> Self {
         Self {
             relative,
             absolute,
-            max_steps,
-            taken: 0,
-            rejected: 0,
-            step: 0.0,
+            steps: Steps::new(max_steps),
             stages: std::array::from_fn(|_| vec![0.0; size]),
             trial: vec![0.0; size],
         }
@@ -79,12 +75,7 @@ impl DormandPrince {
 
     /// Steps taken so far.
     pub fn taken(&self) -> usize {
-        self.taken
-    }
-
-    /// The next step in another unit of time, `ratio` old ones long.
-    pub fn change_unit(&mut self, ratio: f64) {
-        self.step /= ratio;
+        self.steps.taken()
     }
 
     /// Carries `y` from `start` to `end` exactly. `fresh` says that the right-hand side is not the
@@ -104,38 +95,23 @@ impl DormandPrince {
             ode.rate(start, y, &mut self.stages[0])
                 .map_err(|e| IntegrationError::Rate(start, e))?;
         }
-        if self.step == 0.0 {
-            self.step = self.first_step(y, end - start);
-        }
+        let rates = &self.stages[0];
+        self.steps.begin(CAUTION, y, rates, end - start);
         let mut t = start;
         while t < end {
-            if self.taken + self.rejected >= self.max_steps {
-                return Err(IntegrationError::StepLimit(t));
-            }
-            // A step that almost reaches the end is stretched to it.
-            let last = t + 1.01 * self.step >= end;
-            let h = if last { end - t } else { self.step };
-            if h <= 4.0 * f64::EPSILON * start.abs().max(end.abs()) {
-                return Err(IntegrationError::StepUnderflow(t));
-            }
+            let step = self.steps.at(t, [start, end])?;
+            let h = step.length;
             let error = self.attempt(ode, t, h, y);
             let factor = (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
-            if error <= 1.0 {
-                self.taken += 1;
-                t = if last { end } else { t + h };
-                y.copy_from_slice(&self.trial);
-                self.stages.swap(0, 6);
-                accepted(ode, y);
-                // A step cut short by the end says nothing against the longer one.
-                self.step = if last {
-                    self.step.max(h * factor)
-                } else {
-                    h * factor
-                };
-            } else {
-                self.rejected += 1;
-                self.step = h * factor.min(1.0);
+            if error > 1.0 {
+                self.steps.reject(step, factor);
+                continue;
             }
+            self.steps.accept(step, factor);
+            t = if step.last { end } else { t + h };
+            y.copy_from_slice(&self.trial);
+            self.stages.swap(0, 6);
+            accepted(ode, y);
         }
         Ok(())
     }
@@ -169,15 +145,6 @@ impl DormandPrince {
         }
         let error = (sum / y.len() as f64).sqrt();
         if error.is_nan() { f64::INFINITY } else { error }
-    }
-
-    /// A cautious first step from the size of the rates.
-    fn first_step(&self, y: &[f64], span: f64) -> f64 {
-        let mut worst: f64 = 0.0;
-        for (value, rate) in y.iter().zip(&self.stages[0]) {
-            worst = worst.max(rate.abs() / (1e-3 + value.abs()));
-        }
-        (1e-3 / worst).min(0.01 * span)
     }
 }
 

@@ -13,9 +13,13 @@ mod coefficients;
 mod interpolation;
 
 use super::ode::{IntegrationError, Ode};
+use super::steps::Steps;
 use coefficients::{A, ALL, C, E3, E5, STAGES, combine};
 use interpolation::Interpolation;
 use std::ops::ControlFlow;
+
+/// Part of what would change the state by as much as it is, for a first step.
+const CAUTION: f64 = 1e-2;
 
 /// What [`Dop853::advance`] has come to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,12 +37,7 @@ pub struct Dop853 {
     pub relative: f64,
     /// Absolute tolerance.
     pub absolute: f64,
-    /// Most steps allowed, taken or rejected.
-    pub max_steps: usize,
-    taken: usize,
-    rejected: usize,
-    /// Length of the next step; zero where none is known.
-    step: f64,
+    steps: Steps,
     /// Rates of all stages, one after the other.
     stages: Vec<f64>,
     trial: Vec<f64>,
@@ -48,15 +47,12 @@ pub struct Dop853 {
 }
 
 impl Dop853 {
-    /// An integrator of `size` equations.
+    /// An integrator of `size` equations, with at most `max_steps` steps, taken or rejected.
     pub fn new(size: usize, relative: f64, absolute: f64, max_steps: usize) -> Self {
         Self {
             relative,
             absolute,
-            max_steps,
-            taken: 0,
-            rejected: 0,
-            step: 0.0,
+            steps: Steps::new(max_steps),
             stages: vec![0.0; ALL * size],
             trial: vec![0.0; size],
             errors: vec![0.0; 2 * size],
@@ -66,12 +62,12 @@ impl Dop853 {
 
     /// Steps taken so far.
     pub fn taken(&self) -> usize {
-        self.taken
+        self.steps.taken()
     }
 
     /// The next step in another unit of time, `ratio` old ones long.
     pub fn change_unit(&mut self, ratio: f64) {
-        self.step /= ratio;
+        self.steps.change_unit(ratio);
     }
 
     /// Carries `y` from the first of `nodes`, which rise, to the last; the right-hand side is smooth in
@@ -93,29 +89,20 @@ impl Dop853 {
         let size = y.len();
         ode.rate(start, y, &mut self.stages[..size])
             .map_err(|e| IntegrationError::Rate(start, e))?;
-        if self.step == 0.0 {
-            self.step = self.first_step(y, end - start);
-        }
+        let rates = &self.stages[..size];
+        self.steps.begin(CAUTION, y, rates, end - start);
         let (mut t, mut next) = (start, 1);
         while t < end {
-            if self.taken + self.rejected >= self.max_steps {
-                return Err(IntegrationError::StepLimit(t));
-            }
-            // A step that almost reaches the end is stretched to it.
-            let last = t + 1.01 * self.step >= end;
-            let h = if last { end - t } else { self.step };
-            if h <= 4.0 * f64::EPSILON * start.abs().max(end.abs()) {
-                return Err(IntegrationError::StepUnderflow(t));
-            }
+            let step = self.steps.at(t, [start, end])?;
+            let h = step.length;
             let error = self.attempt(ode, t, h, y);
             let factor = (0.9 * error.powf(-0.125)).clamp(1.0 / 3.0, 6.0);
             if error > 1.0 {
-                self.rejected += 1;
-                self.step = h * factor.min(1.0);
+                self.steps.reject(step, factor);
                 continue;
             }
-            self.taken += 1;
-            let reached = if last { end } else { t + h };
+            self.steps.accept(step, factor);
+            let reached = if step.last { end } else { t + h };
             let inside = nodes[next..].iter().take_while(|&&node| node < reached);
             let inside = inside.count();
             if inside > 0 {
@@ -133,11 +120,6 @@ impl Dop853 {
             self.stages
                 .copy_within((STAGES - 1) * size..STAGES * size, 0);
             t = reached;
-            // A step cut short by the end says nothing against the longer one.
-            self.step = match last {
-                true => self.step.max(h * factor),
-                false => h * factor,
-            };
             if see(ode, Reached::Step(y)).is_break() {
                 return Ok(());
             }
@@ -213,15 +195,6 @@ impl Dop853 {
         self.interpolation.load(&self.stages, [y, &self.trial], h);
         Ok(())
     }
-
-    /// A cautious first step from the size of the rates.
-    fn first_step(&self, y: &[f64], span: f64) -> f64 {
-        let mut worst: f64 = 0.0;
-        for (value, rate) in y.iter().zip(&self.stages) {
-            worst = worst.max(rate.abs() / (1e-3 + value.abs()));
-        }
-        (1e-2 / worst).min(0.1 * span)
-    }
 }
 
 #[cfg(test)]
@@ -293,7 +266,7 @@ mod tests {
             let nodes = [0.3, 0.3 + 0.37 * h, 0.3 + h];
             let mut y = [1.0, 0.5, nodes[0].sin().exp()];
             let mut integrator = Dop853::new(3, 1.0, 1.0, 10);
-            integrator.step = h;
+            integrator.steps.begin(h, &[1.0 - 1e-3], &[1.0], f64::MAX);
             let mut gaps = [0.0; 3];
             integrator
                 .advance(&mut Pendulum { rates: 0 }, &nodes, &mut y, |_, reached| {
