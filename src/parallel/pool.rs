@@ -51,18 +51,34 @@ pub(super) fn with_help(most: usize, help: &(dyn Fn() + Sync), own: impl FnOnce(
     // dismisses all of them before this function returns or unwinds.
     let help = unsafe { std::mem::transmute::<&(dyn Fn() + Sync), Work>(help) };
     let mut asked = Asked(0);
+    let mut left = most;
     for (k, helper) in HELPERS.iter().enumerate() {
-        if asked.0.count_ones() as usize == most {
+        if left == 0 {
             break;
         }
-        if helper.ask(k, help) {
-            asked.0 |= 1 << k;
+        match helper.ask(k, help) {
+            Answer::Asked => {
+                asked.0 |= 1 << k;
+                left -= 1;
+            }
+            Answer::Changing => left -= 1,
+            Answer::Unavailable => {}
         }
     }
     own();
     if let Some(payload) = asked.dismiss() {
         resume_unwind(payload);
     }
+}
+
+/// What came of asking a helper.
+enum Answer {
+    Asked,
+    /// It has other work, or cannot be started.
+    Unavailable,
+    /// Its state is changing at this moment. It is mostly a free one that woke too late for its
+    /// last work, so that a further one in its place would be one thread too many.
+    Changing,
 }
 
 /// The helpers that a caller has asked, one bit for each.
@@ -97,26 +113,25 @@ impl Helper {
         }
     }
 
-    /// Asks the helper, which is number `k`, unless it has other work or cannot be started.
-    fn ask(&'static self, k: usize, work: Work) -> bool {
-        // Whoever holds the lock is another caller.
+    /// Asks the helper, which is number `k`; waits for nobody.
+    fn ask(&'static self, k: usize, work: Work) -> Answer {
         let Ok(mut state) = self.state.try_lock() else {
-            return false;
+            return Answer::Changing;
         };
         match *state {
             State::Free => {}
             State::NotStarted => {
                 let named = thread::Builder::new().name(format!("ffsm-helper-{k}"));
                 if named.spawn(|| self.serve()).is_err() {
-                    return false;
+                    return Answer::Unavailable;
                 }
             }
-            State::Asked(_) | State::Busy | State::Done(_) => return false,
+            State::Asked(_) | State::Busy | State::Done(_) => return Answer::Unavailable,
         }
         *state = State::Asked(work);
         drop(state);
         self.asked.notify_one();
-        true
+        Answer::Asked
     }
 
     /// Takes back what the helper was asked for, or waits until it is done.
