@@ -17,8 +17,8 @@ use std::slice::{from_raw_parts, from_raw_parts_mut};
 use std::time::{Duration, Instant};
 
 /// What the callbacks of one solve share.
-pub(super) struct Context<'a, N: Nlp + ?Sized> {
-    nlp: &'a mut N,
+pub(super) struct Context<'a> {
+    nlp: &'a mut dyn Nlp,
     monitor: &'a mut dyn FnMut(&Progress) -> Control,
     deadline: Deadline,
     /// Whether the multifrontal solver serves, and MUMPS could.
@@ -48,9 +48,9 @@ pub(super) struct Record {
 /// The count of one function.
 type Counter = fn(&mut Evaluations) -> &mut u32;
 
-impl<'a, N: Nlp + ?Sized> Context<'a, N> {
+impl<'a> Context<'a> {
     pub(super) fn new(
-        nlp: &'a mut N,
+        nlp: &'a mut dyn Nlp,
         monitor: &'a mut dyn FnMut(&Progress) -> Control,
         deadline: Deadline,
         bridged: bool,
@@ -74,7 +74,7 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
         &mut self,
         counter: Counter,
         new_point: Bool,
-        body: impl FnOnce(&mut N) -> Result<(), Undefined>,
+        body: impl FnOnce(&mut dyn Nlp) -> Result<(), Undefined>,
     ) -> Bool {
         if self.record.panic.is_some() {
             return ip::from_bool(false);
@@ -95,7 +95,7 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
     }
 
     /// Writes a structure; false to Ipopt where that is not what it was announced as.
-    fn structure(&mut self, body: impl FnOnce(&N) -> bool) -> Bool {
+    fn structure(&mut self, body: impl FnOnce(&dyn Nlp) -> bool) -> Bool {
         let nlp = &*self.nlp;
         let outcome = catch_unwind(AssertUnwindSafe(|| body(nlp)));
         self.answer(outcome)
@@ -131,11 +131,11 @@ impl<'a, N: Nlp + ?Sized> Context<'a, N> {
 /// The context behind Ipopt's user data.
 ///
 /// # Safety
-/// `user_data` is the `Context<N>` that `Problem::<N>::solve` passed on, and nothing else refers
+/// `user_data` is the [`Context`] that `Problem::solve` passed on, and nothing else refers
 /// to it while the callback runs.
-unsafe fn context<'c, 'a: 'c, N: Nlp + ?Sized>(user_data: UserDataPtr) -> &'c mut Context<'a, N> {
+unsafe fn context<'c, 'a: 'c>(user_data: UserDataPtr) -> &'c mut Context<'a> {
     // SAFETY: the caller's promise.
-    unsafe { &mut *user_data.cast::<Context<'a, N>>() }
+    unsafe { &mut *user_data.cast::<Context<'a>>() }
 }
 
 /// # Safety
@@ -159,7 +159,7 @@ unsafe fn output<'c, T>(data: *mut T, length: Index) -> &'c mut [T] {
     }
 }
 
-pub(super) unsafe extern "C" fn objective<N: Nlp + ?Sized>(
+pub(super) unsafe extern "C" fn objective(
     n: Index,
     x: *mut Number,
     new_x: Bool,
@@ -167,7 +167,7 @@ pub(super) unsafe extern "C" fn objective<N: Nlp + ?Sized>(
     user_data: UserDataPtr,
 ) -> Bool {
     // SAFETY: Ipopt passes its user data, x of length n and one value to write.
-    let (context, x, value) = unsafe { (context::<N>(user_data), input(x, n), &mut *value) };
+    let (context, x, value) = unsafe { (context(user_data), input(x, n), &mut *value) };
     context.evaluate(
         |of| &mut of.objective,
         new_x,
@@ -178,7 +178,7 @@ pub(super) unsafe extern "C" fn objective<N: Nlp + ?Sized>(
     )
 }
 
-pub(super) unsafe extern "C" fn gradient<N: Nlp + ?Sized>(
+pub(super) unsafe extern "C" fn gradient(
     n: Index,
     x: *mut Number,
     new_x: Bool,
@@ -186,11 +186,11 @@ pub(super) unsafe extern "C" fn gradient<N: Nlp + ?Sized>(
     user_data: UserDataPtr,
 ) -> Bool {
     // SAFETY: Ipopt passes its user data, x and the gradient of length n.
-    let (context, x, values) = unsafe { (context::<N>(user_data), input(x, n), output(values, n)) };
+    let (context, x, values) = unsafe { (context(user_data), input(x, n), output(values, n)) };
     context.evaluate(|of| &mut of.gradient, new_x, |nlp| nlp.gradient(x, values))
 }
 
-pub(super) unsafe extern "C" fn constraints<N: Nlp + ?Sized>(
+pub(super) unsafe extern "C" fn constraints(
     n: Index,
     x: *mut Number,
     new_x: Bool,
@@ -199,7 +199,7 @@ pub(super) unsafe extern "C" fn constraints<N: Nlp + ?Sized>(
     user_data: UserDataPtr,
 ) -> Bool {
     // SAFETY: Ipopt passes its user data, x of length n and values of length m.
-    let (context, x, values) = unsafe { (context::<N>(user_data), input(x, n), output(values, m)) };
+    let (context, x, values) = unsafe { (context(user_data), input(x, n), output(values, m)) };
     context.evaluate(
         |of| &mut of.constraints,
         new_x,
@@ -207,7 +207,7 @@ pub(super) unsafe extern "C" fn constraints<N: Nlp + ?Sized>(
     )
 }
 
-pub(super) unsafe extern "C" fn jacobian<N: Nlp + ?Sized>(
+pub(super) unsafe extern "C" fn jacobian(
     n: Index,
     x: *mut Number,
     new_x: Bool,
@@ -219,7 +219,7 @@ pub(super) unsafe extern "C" fn jacobian<N: Nlp + ?Sized>(
     user_data: UserDataPtr,
 ) -> Bool {
     // SAFETY: Ipopt passes its user data.
-    let context = unsafe { context::<N>(user_data) };
+    let context = unsafe { context(user_data) };
     if values.is_null() {
         // SAFETY: without values, Ipopt passes rows and columns of this length.
         let (rows, columns) = unsafe { (output(rows, nonzeros), output(columns, nonzeros)) };
@@ -235,7 +235,7 @@ pub(super) unsafe extern "C" fn jacobian<N: Nlp + ?Sized>(
     context.evaluate(|of| &mut of.jacobian, new_x, |nlp| nlp.jacobian(x, values))
 }
 
-pub(super) unsafe extern "C" fn hessian<N: Nlp + ?Sized>(
+pub(super) unsafe extern "C" fn hessian(
     n: Index,
     x: *mut Number,
     new_x: Bool,
@@ -250,7 +250,7 @@ pub(super) unsafe extern "C" fn hessian<N: Nlp + ?Sized>(
     user_data: UserDataPtr,
 ) -> Bool {
     // SAFETY: Ipopt passes its user data.
-    let context = unsafe { context::<N>(user_data) };
+    let context = unsafe { context(user_data) };
     if values.is_null() {
         // SAFETY: without values, Ipopt passes rows and columns of this length.
         let (rows, columns) = unsafe { (output(rows, nonzeros), output(columns, nonzeros)) };
@@ -272,7 +272,7 @@ pub(super) unsafe extern "C" fn hessian<N: Nlp + ?Sized>(
     )
 }
 
-pub(super) unsafe extern "C" fn intermediate<N: Nlp + ?Sized>(
+pub(super) unsafe extern "C" fn intermediate(
     mode: Index,
     iteration: Index,
     objective: Number,
@@ -287,7 +287,7 @@ pub(super) unsafe extern "C" fn intermediate<N: Nlp + ?Sized>(
     user_data: UserDataPtr,
 ) -> Bool {
     // SAFETY: Ipopt passes its user data.
-    let context = unsafe { context::<N>(user_data) };
+    let context = unsafe { context(user_data) };
     context.report(Progress {
         iteration: u32::try_from(iteration).unwrap_or(0),
         restoration: mode != 0,

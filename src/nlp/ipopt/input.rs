@@ -14,7 +14,7 @@ pub(super) struct Bounds {
 
 impl Bounds {
     /// Bounds of `nlp`, each checked to leave some value.
-    pub(super) fn of<N: Nlp + ?Sized>(nlp: &N, size: Size) -> Result<Self, IpoptError> {
+    pub(super) fn of(nlp: &dyn Nlp, size: Size) -> Result<Self, IpoptError> {
         let mut variables = [vec![0.0; size.variables], vec![0.0; size.variables]];
         let mut constraints = [vec![0.0; size.constraints], vec![0.0; size.constraints]];
         let [lower, upper] = &mut variables;
@@ -51,8 +51,8 @@ fn convert(
 }
 
 /// Checks lengths and finiteness of `start`, as far as this solve uses it.
-pub(super) fn check_start<N: Nlp + ?Sized>(
-    nlp: &N,
+pub(super) fn check_start(
+    nlp: &dyn Nlp,
     size: Size,
     settings: &Settings,
     start: &Iterate,

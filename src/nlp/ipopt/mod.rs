@@ -71,8 +71,8 @@ pub fn version() -> &'static str {
 ///
 /// # Panics
 /// A panic in `nlp` or `monitor` is resumed with its own payload after Ipopt has returned.
-pub fn solve<N: Nlp + ?Sized>(
-    nlp: &mut N,
+pub fn solve(
+    nlp: &mut dyn Nlp,
     settings: &Settings,
     start: &Iterate,
     monitor: &mut dyn FnMut(&Progress) -> Control,
@@ -128,15 +128,15 @@ struct Handing {
 }
 
 /// What the attempts at one solve share.
-struct Attempt<'a, N: Nlp + ?Sized> {
-    nlp: &'a mut N,
+struct Attempt<'a> {
+    nlp: &'a mut dyn Nlp,
     size: Size,
     /// Bounds for the first attempt.
     bounds: Option<input::Bounds>,
     deadline: Deadline,
 }
 
-impl<N: Nlp + ?Sized> Attempt<'_, N> {
+impl Attempt<'_> {
     /// One attempt, and how MUMPS is to take it over.
     fn run(
         &mut self,

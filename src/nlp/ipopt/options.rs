@@ -3,7 +3,7 @@
 use super::IpoptError;
 use super::choice::{Choice, library, text_option};
 use super::problem::Problem;
-use crate::nlp::{LinearSolver, Nlp, OptionValue, Settings};
+use crate::nlp::{LinearSolver, OptionValue, Settings};
 use ipopt_sys::hsl;
 use ipopt_sys::ma97::Reached;
 use std::ffi::CString;
@@ -24,8 +24,8 @@ const PUSHES: [&str; 4] = [
 const LARGEST_MULTIPLIER_PUSH: f64 = 1e-9;
 
 /// Sets every option of a solve.
-pub(super) fn apply<N: Nlp + ?Sized>(
-    problem: &mut Problem<N>,
+pub(super) fn apply(
+    problem: &mut Problem,
     settings: &Settings,
     choice: &Choice,
 ) -> Result<(), IpoptError> {
@@ -103,11 +103,7 @@ fn check_libraries(settings: &Settings) -> Result<(), IpoptError> {
     Ok(())
 }
 
-fn set_option<N: Nlp + ?Sized>(
-    problem: &mut Problem<N>,
-    name: &str,
-    value: &OptionValue,
-) -> Result<(), IpoptError> {
+fn set_option(problem: &mut Problem, name: &str, value: &OptionValue) -> Result<(), IpoptError> {
     if try_set(problem, name, value) {
         return Ok(());
     }
@@ -122,7 +118,7 @@ fn set_option<N: Nlp + ?Sized>(
     })
 }
 
-fn try_set<N: Nlp + ?Sized>(problem: &mut Problem<N>, name: &str, value: &OptionValue) -> bool {
+fn try_set(problem: &mut Problem, name: &str, value: &OptionValue) -> bool {
     let Ok(name) = CString::new(name) else {
         return false;
     };

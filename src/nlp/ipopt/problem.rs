@@ -6,20 +6,18 @@ use super::IpoptError;
 use super::callbacks::{self, Context};
 use super::input::Bounds;
 use super::structure::count;
-use crate::nlp::{Iterate, Nlp, Size};
+use crate::nlp::{Iterate, Size};
 use ipopt_sys as ip;
 use std::ffi::CStr;
-use std::marker::PhantomData;
 use std::ptr::{NonNull, null_mut};
 
-/// Owns an Ipopt problem whose callbacks expect a [`Context`] of the same `N`.
-pub(super) struct Problem<N: Nlp + ?Sized> {
+/// Owns an Ipopt problem whose callbacks expect a [`Context`].
+pub(super) struct Problem {
     handle: NonNull<ip::IpoptProblemInfo>,
     size: Size,
-    callbacks: PhantomData<fn(&mut N)>,
 }
 
-impl<N: Nlp + ?Sized> Problem<N> {
+impl Problem {
     pub(super) fn create(size: Size, bounds: &mut Bounds) -> Result<Self, IpoptError> {
         let variables = count(size.variables, "variables")?;
         let constraints = count(size.constraints, "constraints")?;
@@ -40,11 +38,11 @@ impl<N: Nlp + ?Sized> Problem<N> {
                 jacobian,
                 hessian,
                 0,
-                Some(callbacks::objective::<N>),
-                Some(callbacks::constraints::<N>),
-                Some(callbacks::gradient::<N>),
-                Some(callbacks::jacobian::<N>),
-                Some(callbacks::hessian::<N>),
+                Some(callbacks::objective),
+                Some(callbacks::constraints),
+                Some(callbacks::gradient),
+                Some(callbacks::jacobian),
+                Some(callbacks::hessian),
             )
         };
         let handle = NonNull::new(handle).ok_or(IpoptError::Creation {
@@ -53,12 +51,8 @@ impl<N: Nlp + ?Sized> Problem<N> {
             jacobian_nonzeros: size.jacobian_nonzeros,
         })?;
         // SAFETY: the handle is fresh and valid, the callback has the right signature.
-        unsafe { ip::SetIntermediateCallback(handle.as_ptr(), Some(callbacks::intermediate::<N>)) };
-        Ok(Self {
-            handle,
-            size,
-            callbacks: PhantomData,
-        })
+        unsafe { ip::SetIntermediateCallback(handle.as_ptr(), Some(callbacks::intermediate)) };
+        Ok(Self { handle, size })
     }
 
     /// Sets a text option; whether Ipopt took it.
@@ -117,7 +111,7 @@ impl<N: Nlp + ?Sized> Problem<N> {
         iterate: &mut Iterate,
         constraints: &mut [f64],
         objective: &mut f64,
-        context: &mut Context<'_, N>,
+        context: &mut Context<'_>,
     ) -> ip::ApplicationReturnStatus {
         assert!(
             iterate.x.len() == self.size.variables
@@ -141,7 +135,7 @@ impl<N: Nlp + ?Sized> Problem<N> {
     }
 }
 
-impl<N: Nlp + ?Sized> Drop for Problem<N> {
+impl Drop for Problem {
     fn drop(&mut self) {
         // SAFETY: the handle is valid and not used again.
         unsafe { ip::FreeIpoptProblem(self.handle.as_ptr()) };

@@ -8,7 +8,7 @@ use crate::nlp::{Nlp, Size};
 use ipopt_sys::Index;
 
 /// Checks that every entry of both matrices of `nlp` lies in its matrix.
-pub(super) fn check<N: Nlp + ?Sized>(nlp: &N, size: Size) -> Result<(), IpoptError> {
+pub(super) fn check(nlp: &dyn Nlp, size: Size) -> Result<(), IpoptError> {
     let (m, n) = (size.constraints, size.variables);
     inside(
         size.jacobian_nonzeros,

@@ -7,7 +7,6 @@
 //! ```
 
 use super::problem::Problem;
-use crate::nlp::Nlp;
 use std::ffi::CString;
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -31,7 +30,7 @@ pub(super) struct TimingFile(File);
 
 impl TimingFile {
     /// Has `problem` write to a new file; `None` where there cannot be one.
-    pub(super) fn attach<N: Nlp + ?Sized>(problem: &mut Problem<N>) -> Option<Self> {
+    pub(super) fn attach(problem: &mut Problem) -> Option<Self> {
         // In memory where there is such a place: a file on disk costs 0.3 ms more than one there.
         let file = NamedTempFile::new_in(SHARED_MEMORY).or_else(|_| NamedTempFile::new());
         let (file, path) = file.ok()?.into_parts();
