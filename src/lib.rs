@@ -60,8 +60,10 @@ pub mod reproduction;
 // Here and not in a file of its own: `solve` stands above the folder that the problem's files are in.
 pub mod ocp {
     mod derivatives;
+    mod dyn_ocp;
     mod elastic;
     mod formulation;
+    mod functions;
     mod interval;
     mod invariants;
     mod point;
@@ -71,8 +73,11 @@ pub mod ocp {
 
     pub use crate::refine::{SolveError, SolveSettings as Settings, solve, solve_from};
     pub use derivatives::PointDerivatives;
+    pub use dyn_ocp::{Derivatives, DynOcp, Functions};
     pub use elastic::{Elastic, LimitGroup, Limited};
     pub use formulation::{Formulation, Quantity, WayPoint};
+    pub use functions::Part;
+    pub(crate) use functions::{PointShape, WayPointShape};
     pub use interval::Interval;
     pub(crate) use invariants::{Dependent, dependent};
     pub use point::{Ends, InteriorPoint, Point};

@@ -72,6 +72,11 @@ impl Sparsity {
         }
     }
 
+    /// Number of nonzeros of the Jacobian.
+    pub fn nonzeros(&self) -> usize {
+        self.jacobian.iter().map(Vec::len).sum()
+    }
+
     /// Inputs that any output depends on, ascending.
     pub fn columns(&self) -> Vec<usize> {
         let mut columns: Vec<usize> = self.jacobian.iter().flatten().copied().collect();

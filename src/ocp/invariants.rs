@@ -6,7 +6,8 @@
 //!
 //! Derived in docs/algorithms.md#dependent-conditions.
 
-use super::{Formulation, Interval, Ocp, Point};
+use super::dyn_ocp::{DynOcp, Functions};
+use super::{Formulation, Interval, Point};
 use nalgebra::{DMatrix, SVD};
 
 /// A combination of columns below this part of the largest one is zero to rounding.
@@ -48,7 +49,7 @@ impl Dependent {
 ///
 /// Looked for are invariants Σ (c_i x_i + ½ q_i x_i²) of the states fixed at the start and at the
 /// other instant.
-pub(crate) fn dependent<O: Ocp>(ocp: &O, formulation: &Formulation) -> Vec<Dependent> {
+pub(crate) fn dependent(ocp: &dyn DynOcp, formulation: &Formulation) -> Vec<Dependent> {
     let way_points = formulation.way_points.iter().enumerate();
     let way_points = way_points.map(|(w, point)| (Some(w), &point.states));
     let instants = way_points.chain([(None, &formulation.terminal)]);
@@ -86,7 +87,7 @@ pub(crate) fn dependent<O: Ocp>(ocp: &O, formulation: &Formulation) -> Vec<Depen
 }
 
 /// Coefficients c and then q of the invariants of the states `fixed`, a basis of all of them.
-fn invariants<O: Ocp>(ocp: &O, formulation: &Formulation, fixed: &[usize]) -> Vec<Vec<f64>> {
+fn invariants(ocp: &dyn DynOcp, formulation: &Formulation, fixed: &[usize]) -> Vec<Vec<f64>> {
     let count = fixed.len();
     let (columns, samples) = (2 * count, 3 * count + 8);
     let mut rates_of = Samples::new(ocp, formulation);
@@ -200,10 +201,9 @@ fn conditions(invariants: &[Vec<f64>], ends: &[[f64; 2]]) -> Vec<(usize, Interva
 }
 
 /// Rates at random states and controls.
-struct Samples<'a, O: Ocp> {
-    ocp: &'a O,
+struct Samples<'a> {
     formulation: &'a Formulation,
-    scratch: O::Scratch<f64>,
+    functions: Box<dyn Functions + 'a>,
     random: fastrand::Rng,
     x: Vec<f64>,
     u: Vec<f64>,
@@ -212,16 +212,15 @@ struct Samples<'a, O: Ocp> {
     path: Vec<f64>,
 }
 
-impl<'a, O: Ocp> Samples<'a, O> {
+impl<'a> Samples<'a> {
     /// Places that are tried for one where the rates are finite.
     const TRIALS: usize = 10;
 
-    fn new(ocp: &'a O, formulation: &'a Formulation) -> Self {
+    fn new(ocp: &'a dyn DynOcp, formulation: &'a Formulation) -> Self {
         let (states, controls) = formulation.widths();
         Self {
-            ocp,
             formulation,
-            scratch: ocp.scratch(),
+            functions: ocp.functions(),
             random: fastrand::Rng::with_seed(28),
             x: vec![0.0; states],
             u: vec![0.0; controls],
@@ -282,7 +281,7 @@ impl<'a, O: Ocp> Samples<'a, O> {
             t: formulation.initial_time.clamp(0.0) + elapsed,
             parameters: &self.p,
         };
-        self.ocp
-            .continuous(point, &mut self.scratch, &mut self.rates, &mut self.path);
+        self.functions
+            .continuous(point, &mut self.rates, &mut self.path);
     }
 }

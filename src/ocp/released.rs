@@ -1,25 +1,24 @@
 //! The problem without conditions that follow from others.
 
+use super::dyn_ocp::{Derivatives, DynOcp, Functions};
+use super::functions::Part;
 use super::invariants::Dependent;
-use super::{Ends, Formulation, InteriorPoint, Ocp, Point, PointDerivatives};
-use crate::autodiff::Scalar;
+use super::{Formulation, PointDerivatives};
+use crate::autodiff::Sparsity;
 
 /// The problem inside, its dependent conditions replaced by bounds that are not met.
-#[derive(Debug)]
-pub(crate) struct Released<'a, O> {
-    inner: &'a O,
+pub(crate) struct Released<'a> {
+    inner: &'a dyn DynOcp,
     dependent: &'a [Dependent],
 }
 
-impl<'a, O> Released<'a, O> {
-    pub fn new(inner: &'a O, dependent: &'a [Dependent]) -> Self {
+impl<'a> Released<'a> {
+    pub fn new(inner: &'a dyn DynOcp, dependent: &'a [Dependent]) -> Self {
         Self { inner, dependent }
     }
 }
 
-impl<O: Ocp> Ocp for Released<'_, O> {
-    type Scratch<S: Scalar> = O::Scratch<S>;
-
+impl DynOcp for Released<'_> {
     fn formulation(&self) -> Formulation {
         let mut formulation = self.inner.formulation();
         for condition in self.dependent {
@@ -32,52 +31,28 @@ impl<O: Ocp> Ocp for Released<'_, O> {
         formulation
     }
 
-    fn scratch<S: Scalar>(&self) -> Self::Scratch<S> {
-        self.inner.scratch()
-    }
-
-    fn continuous<S: Scalar>(
-        &self,
-        point: Point<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rates: &mut [S],
-        path: &mut [S],
-    ) -> S {
-        self.inner.continuous(point, scratch, rates, path)
-    }
-
-    fn integrands<S: Scalar>(
-        &self,
-        point: Point<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        integrands: &mut [S],
-    ) {
-        self.inner.integrands(point, scratch, integrands);
-    }
-
-    fn boundary<S: Scalar>(
-        &self,
-        ends: Ends<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rows: &mut [S],
-    ) -> S {
-        self.inner.boundary(ends, scratch, rows)
-    }
-
-    fn way_point<S: Scalar>(
-        &self,
-        point: InteriorPoint<'_, S>,
-        scratch: &mut Self::Scratch<S>,
-        rows: &mut [S],
-    ) {
-        self.inner.way_point(point, scratch, rows);
-    }
-
-    fn derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
-        self.inner.derivatives()
-    }
-
     fn has_branches(&self) -> bool {
         self.inner.has_branches()
+    }
+
+    fn own_derivatives(&self) -> Option<Box<dyn PointDerivatives + '_>> {
+        self.inner.own_derivatives()
+    }
+
+    fn functions(&self) -> Box<dyn Functions + '_> {
+        self.inner.functions()
+    }
+
+    fn trace(&self, part: Part, formulation: &Formulation, used: &[bool], at: &[f64]) -> Sparsity {
+        self.inner.trace(part, formulation, used, at)
+    }
+
+    fn differentiate(
+        &self,
+        part: Part,
+        formulation: &Formulation,
+        sparsity: Sparsity,
+    ) -> Box<dyn Derivatives + '_> {
+        self.inner.differentiate(part, formulation, sparsity)
     }
 }

@@ -6,7 +6,7 @@ use super::objective_error::objective_error;
 use super::violation::{OVERSHOOT, violations};
 use super::{Bounded, Errors, Settings, Verdict, Violation, midpoint_errors};
 use crate::largest::largest;
-use crate::ocp::Ocp;
+use crate::ocp::DynOcp;
 use crate::transcription::Patterns;
 
 /// Part of its size by which a bound of a state or a row of the states may be exceeded between the
@@ -37,15 +37,15 @@ pub(super) struct Assessed {
 }
 
 /// Judges the solutions of one problem.
-pub(super) struct Assessor<'a, O: Ocp> {
-    ocp: &'a O,
+pub(super) struct Assessor<'a> {
+    ocp: &'a dyn DynOcp,
     settings: &'a Settings,
     /// Whether each path row depends on a control.
     jumping_rows: Vec<bool>,
 }
 
-impl<'a, O: Ocp> Assessor<'a, O> {
-    pub fn new(ocp: &'a O, patterns: &Patterns, settings: &'a Settings) -> Self {
+impl<'a> Assessor<'a> {
+    pub fn new(ocp: &'a dyn DynOcp, patterns: &Patterns, settings: &'a Settings) -> Self {
         let formulation = ocp.formulation();
         let jumps = |p| !patterns.path_is_continuous(&formulation, p);
         Self {
@@ -56,7 +56,7 @@ impl<'a, O: Ocp> Assessor<'a, O> {
     }
 
     /// Looks at a solution between its nodes.
-    pub fn assess(&self, solved: &Solved, conditioning: &Conditioning<'_, O>) -> Assessed {
+    pub fn assess(&self, solved: &Solved, conditioning: &Conditioning<'_>) -> Assessed {
         let errors = midpoint_errors(self.ocp, &solved.trajectory);
         let errors = conditioning.measured(errors, self.settings);
         let duration = solved.trajectory.duration;

@@ -7,13 +7,13 @@
 
 use super::{ErrorMeasure, Errors, Settings};
 use crate::nlp::{Status, Units};
-use crate::ocp::{Formulation, Ocp};
+use crate::ocp::{DynOcp, Formulation};
 use crate::transcription::{Discretization, Layout, Patterns, Reach, Scales};
 use std::borrow::Cow;
 
 /// Suppositions about one problem.
-pub(super) struct Conditioning<'a, O> {
-    ocp: &'a O,
+pub(super) struct Conditioning<'a> {
+    ocp: &'a dyn DynOcp,
     all: Formulation,
     /// The formulation without bounds that lie far outside.
     near: Formulation,
@@ -23,9 +23,9 @@ pub(super) struct Conditioning<'a, O> {
     patterns: Cow<'a, Patterns>,
 }
 
-impl<'a, O: Ocp> Conditioning<'a, O> {
+impl<'a> Conditioning<'a> {
     /// By the trajectory that the first solve starts from, which has a node at every way-point.
-    pub fn new(ocp: &'a O, patterns: &'a Patterns, start: &Discretization) -> Self {
+    pub fn new(ocp: &'a dyn DynOcp, patterns: &'a Patterns, start: &Discretization) -> Self {
         let all = ocp.formulation();
         let reach = Reach::of(ocp, &all, start);
         let near = reach.without_far_bounds(&all);

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::largest::largest;
 use crate::nlp::{self, Control, Deadline, Progress, Statistics, Status};
-use crate::ocp::Ocp;
+use crate::ocp::DynOcp;
 use crate::transcription::{Discretization, Patterns, Structure, integrals};
 use std::fmt;
 use std::time::Instant;
@@ -55,9 +55,9 @@ pub enum Event<'a> {
 }
 
 /// One problem with its settings, ready to be solved on a sequence of meshes.
-pub struct Refinement<'a, O: Ocp> {
+pub struct Refinement<'a> {
     /// The problem.
-    pub ocp: &'a O,
+    pub ocp: &'a dyn DynOcp,
     /// Its sparsity.
     pub patterns: &'a Patterns,
     /// Mesh and refinement.
@@ -66,7 +66,7 @@ pub struct Refinement<'a, O: Ocp> {
     pub solver: &'a nlp::Settings,
 }
 
-impl<O: Ocp> fmt::Debug for Refinement<'_, O> {
+impl fmt::Debug for Refinement<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Refinement")
             .field("settings", &self.settings)
@@ -75,7 +75,7 @@ impl<O: Ocp> fmt::Debug for Refinement<'_, O> {
     }
 }
 
-impl<O: Ocp> Refinement<'_, O> {
+impl Refinement<'_> {
     /// A straight line between the ends of every state on the first mesh, at rest controls.
     ///
     /// # Errors

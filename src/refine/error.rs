@@ -3,7 +3,7 @@
 //! Derived in docs/algorithms.md#midpoint-error.
 
 use crate::largest::{largest, raise};
-use crate::ocp::Ocp;
+use crate::ocp::DynOcp;
 use crate::transcription::Discretization;
 
 /// Largest error (28) in every segment; NaN where the rates are NaN at one of the midpoints.
@@ -66,10 +66,10 @@ impl Errors {
 ///
 /// The control is interpolated through the N LGR points, which extrapolates it to the last
 /// midpoint.
-pub fn midpoint_errors<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Errors {
+pub fn midpoint_errors(ocp: &dyn DynOcp, trajectory: &Discretization) -> Errors {
     let n = trajectory.states;
     let formulation = ocp.formulation();
-    let mut scratch = ocp.scratch::<f64>();
+    let mut functions = ocp.functions();
     let (mut x, mut dx, mut f) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let mut u = vec![0.0; trajectory.controls];
     let mut path = vec![0.0; formulation.path.len()];
@@ -87,9 +87,9 @@ pub fn midpoint_errors<O: Ocp>(ocp: &O, trajectory: &Discretization) -> Errors {
             trajectory.state_in(s, tau, x);
             trajectory.control_in(s, tau, &mut u);
             let point = trajectory.point(x, &u, trajectory.time(mesh.fraction(s, tau)));
-            ocp.continuous(point, &mut scratch, f, &mut path);
+            functions.continuous(point, f, &mut path);
             if count > 0 {
-                ocp.integrands(point, &mut scratch, g);
+                functions.integrands(point, g);
             }
         };
         let integrated = match count {

@@ -1,6 +1,6 @@
 //! What a law may ask of the problem beside the trajectory.
 
-use crate::ocp::{Formulation, Ocp};
+use crate::ocp::{DynOcp, Formulation};
 use crate::transcription::{Discretization, Patterns};
 use std::fmt;
 
@@ -33,12 +33,12 @@ impl fmt::Debug for Facts<'_> {
 
 impl<'a> Facts<'a> {
     /// Those of `ocp`.
-    pub fn of<O: Ocp>(ocp: &'a O, formulation: &'a Formulation, patterns: &Patterns) -> Self {
+    pub fn of(ocp: &'a dyn DynOcp, formulation: &'a Formulation, patterns: &Patterns) -> Self {
         let (n, paths) = (formulation.states.len(), formulation.path.len());
         let rates = move |trajectory: &Discretization, x: &[f64], u: &[f64], t: f64| {
             let (mut rates, mut path) = (vec![0.0; n], vec![0.0; paths]);
             let point = trajectory.point(x, u, t);
-            ocp.continuous(point, &mut ocp.scratch::<f64>(), &mut rates, &mut path);
+            ocp.functions().continuous(point, &mut rates, &mut path);
             (rates, path)
         };
         Self {

@@ -8,7 +8,7 @@ use super::transfer::{Duals, saved_layout};
 use crate::nlp::{
     self, Control, Deadline, Iterate, Progress, Scaled, Statistics, Status, Units, ipopt,
 };
-use crate::ocp::Ocp;
+use crate::ocp::DynOcp;
 use crate::transcription::{Discretization, Layout, Structure, Transcription};
 
 /// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
@@ -37,8 +37,8 @@ const LARGEST_BARRIER: f64 = 0.1;
 const ATTEMPTS: u32 = 4;
 
 /// What the solves on all meshes share.
-pub(super) struct MeshSolver<'a, O> {
-    pub ocp: &'a O,
+pub(super) struct MeshSolver<'a> {
+    pub ocp: &'a dyn DynOcp,
     pub settings: &'a nlp::Settings,
     /// Where the loop began.
     pub start: &'a Start,
@@ -71,11 +71,11 @@ pub(super) struct Previous {
     pub assessed: Assessed,
 }
 
-impl<O: Ocp> MeshSolver<'_, O> {
+impl MeshSolver<'_> {
     /// Solves on the mesh of `trajectory`, again where the solution is not as was supposed of it.
     pub fn settled(
         &self,
-        conditioning: &mut Conditioning<'_, O>,
+        conditioning: &mut Conditioning<'_>,
         trajectory: &Discretization,
         structure: &Structure,
         previous: Option<&Previous>,
@@ -129,7 +129,7 @@ impl<O: Ocp> MeshSolver<'_, O> {
     /// before, or on the first mesh with those of the start, where there are any.
     fn warm_start(
         &self,
-        program: &Transcription<'_, O>,
+        program: &Transcription<'_>,
         trajectory: &Discretization,
         previous: Option<&Previous>,
     ) -> (nlp::Settings, Iterate) {
@@ -171,7 +171,7 @@ impl<O: Ocp> MeshSolver<'_, O> {
     /// multipliers.
     fn solve(
         &self,
-        program: &mut Transcription<'_, O>,
+        program: &mut Transcription<'_>,
         units: Option<&Units>,
         mut settings: nlp::Settings,
         iterate: Iterate,
@@ -213,8 +213,8 @@ impl<O: Ocp> MeshSolver<'_, O> {
 }
 
 /// Solves `program` in `units`, where there are any; start and result are in its own.
-fn in_units<O: Ocp>(
-    program: &mut Transcription<'_, O>,
+fn in_units(
+    program: &mut Transcription<'_>,
     units: Option<&Units>,
     settings: &nlp::Settings,
     start: &Iterate,

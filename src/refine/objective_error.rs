@@ -4,7 +4,7 @@
 
 use super::mesh_solve::Solved;
 use crate::collocation::Rule;
-use crate::ocp::{Ocp, Point};
+use crate::ocp::{DynOcp, Functions, Point};
 use crate::transcription::Discretization;
 use std::collections::HashMap;
 
@@ -17,7 +17,7 @@ const MORE: usize = 3;
 /// of the defects a unit of τ, and what quadrature leaves of the cost and of the integrals. The optimal cost
 /// changes so where rows are perturbed: Nocedal & Wright, *Numerical Optimization*, 2nd ed., section 12.8
 /// (DOI 10.1007/978-0-387-40065-5).
-pub(super) fn objective_error<O: Ocp>(ocp: &O, solved: &Solved) -> f64 {
+pub(super) fn objective_error(ocp: &dyn DynOcp, solved: &Solved) -> f64 {
     let trajectory = &solved.trajectory;
     let (mesh, layout, multipliers) = (
         &trajectory.mesh,
@@ -27,7 +27,7 @@ pub(super) fn objective_error<O: Ocp>(ocp: &O, solved: &Solved) -> f64 {
     if multipliers.len() != layout.rows() {
         return f64::NAN;
     }
-    let mut functions = Functions::new(ocp, trajectory);
+    let mut functions = Along::new(ocp, trajectory);
     let prices: Vec<f64> = (0..functions.integrands.len())
         .map(|i| multipliers[layout.integral_row(i)])
         .collect();
@@ -65,10 +65,9 @@ pub(super) fn objective_error<O: Ocp>(ocp: &O, solved: &Solved) -> f64 {
 }
 
 /// The problem's functions along a trajectory.
-struct Functions<'a, O: Ocp> {
-    ocp: &'a O,
+struct Along<'a> {
+    functions: Box<dyn Functions + 'a>,
     trajectory: &'a Discretization,
-    scratch: O::Scratch<f64>,
     x: Vec<f64>,
     u: Vec<f64>,
     rates: Vec<f64>,
@@ -76,13 +75,12 @@ struct Functions<'a, O: Ocp> {
     integrands: Vec<f64>,
 }
 
-impl<'a, O: Ocp> Functions<'a, O> {
-    fn new(ocp: &'a O, trajectory: &'a Discretization) -> Self {
+impl<'a> Along<'a> {
+    fn new(ocp: &'a dyn DynOcp, trajectory: &'a Discretization) -> Self {
         let formulation = ocp.formulation();
         Self {
-            ocp,
+            functions: ocp.functions(),
             trajectory,
-            scratch: ocp.scratch(),
             x: vec![0.0; trajectory.states],
             u: vec![0.0; trajectory.controls],
             rates: vec![0.0; trajectory.states],
@@ -99,13 +97,12 @@ impl<'a, O: Ocp> Functions<'a, O> {
         let t = trajectory.time(trajectory.mesh.fraction(s, tau));
         let point: Point<'_, f64> = trajectory.point(&self.x, &self.u, t);
         let cost = self
-            .ocp
-            .continuous(point, &mut self.scratch, &mut self.rates, &mut self.path);
+            .functions
+            .continuous(point, &mut self.rates, &mut self.path);
         if prices.is_empty() {
             return cost;
         }
-        self.ocp
-            .integrands(point, &mut self.scratch, &mut self.integrands);
+        self.functions.integrands(point, &mut self.integrands);
         let priced = prices.iter().zip(&self.integrands);
         cost - priced.map(|(price, g)| price * g).sum::<f64>()
     }

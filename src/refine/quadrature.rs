@@ -4,7 +4,7 @@
 
 use crate::collocation::Rule;
 use crate::largest::raise;
-use crate::ocp::Ocp;
+use crate::ocp::DynOcp;
 use crate::transcription::Discretization;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
@@ -14,10 +14,10 @@ use std::collections::HashMap;
 ///
 /// M. A. Patterson, W. W. Hager and A. V. Rao, "A ph mesh refinement method for optimal control",
 /// doi:10.1002/oca.2114.
-pub fn quadrature_error<O: Ocp>(ocp: &O, trajectory: &Discretization) -> f64 {
+pub fn quadrature_error(ocp: &dyn DynOcp, trajectory: &Discretization) -> f64 {
     let n = trajectory.states;
     let mesh = &trajectory.mesh;
-    let mut scratch = ocp.scratch::<f64>();
+    let mut functions = ocp.functions();
     let mut path = vec![0.0; ocp.formulation().path.len()];
     let mut u = vec![0.0; trajectory.controls];
     let mut finer: HashMap<usize, (Rule, DMatrix<f64>)> = HashMap::new();
@@ -43,7 +43,7 @@ pub fn quadrature_error<O: Ocp>(ocp: &O, trajectory: &Discretization) -> f64 {
             if j < points {
                 trajectory.control_in(s, tau, &mut u);
                 let point = trajectory.point(&x, &u, trajectory.time(mesh.fraction(s, tau)));
-                ocp.continuous(point, &mut scratch, &mut f, &mut path);
+                functions.continuous(point, &mut f, &mut path);
                 rates.row_mut(j).copy_from_slice(&f);
             }
         }

@@ -3,7 +3,7 @@
 use super::start::guessed;
 use super::{Outcome, Refinement, ReleasedCondition, Settings, SolveError, Start, start_check};
 use crate::nlp::{self, Control};
-use crate::ocp::{Dependent, Formulation, Ocp, Released, dependent};
+use crate::ocp::{Dependent, DynOcp, Formulation, Ocp, Released, dependent};
 use crate::transcription::{Discretization, Patterns};
 
 /// How an optimal control problem is solved: [`ocp::Settings`](crate::ocp::Settings).
@@ -38,7 +38,7 @@ impl From<Settings> for SolveSettings {
 ///
 /// # Errors
 /// [`SolveError`], where there is nothing to solve.
-pub fn solve<O: Ocp>(problem: &O, settings: &SolveSettings) -> Result<Outcome, SolveError> {
+pub fn solve(problem: &impl Ocp, settings: &SolveSettings) -> Result<Outcome, SolveError> {
     begin(problem, settings, |refinement| {
         Ok(refinement.straight_start()?)
     })
@@ -50,8 +50,8 @@ pub fn solve<O: Ocp>(problem: &O, settings: &SolveSettings) -> Result<Outcome, S
 ///
 /// # Errors
 /// [`SolveError`], where there is nothing to solve.
-pub fn solve_from<O: Ocp>(
-    problem: &O,
+pub fn solve_from(
+    problem: &impl Ocp,
     settings: &SolveSettings,
     duration: f64,
     guess: impl FnMut(f64, &mut [f64], &mut [f64]),
@@ -61,10 +61,10 @@ pub fn solve_from<O: Ocp>(
     })
 }
 
-fn begin<O: Ocp>(
-    problem: &O,
+fn begin(
+    problem: &dyn DynOcp,
     settings: &SolveSettings,
-    start: impl FnOnce(&Refinement<'_, O>) -> Result<Start, SolveError>,
+    start: impl FnOnce(&Refinement<'_>) -> Result<Start, SolveError>,
 ) -> Result<Outcome, SolveError> {
     let formulation = problem.formulation();
     formulation.validate()?;
@@ -121,7 +121,7 @@ fn released(
         .collect()
 }
 
-impl<O: Ocp> Refinement<'_, O> {
+impl Refinement<'_> {
     /// A trajectory on the first mesh from a guess: the duration, and what writes states and
     /// controls at a fraction of it. t₀ and static parameters are guessed by the formulation.
     ///

@@ -1,7 +1,7 @@
 //! The first evaluation: everything written, everything finite.
 
 use super::SolveError;
-use crate::ocp::{Ends, Formulation, InteriorPoint, Ocp, Quantity};
+use crate::ocp::{DynOcp, Ends, Formulation, InteriorPoint, Quantity};
 use crate::transcription::{Discretization, integrals};
 
 /// What outputs hold before the first call: a number that no computation gives.
@@ -56,8 +56,8 @@ impl Output<'_> {
 }
 
 /// Asks that every output is written at the first point, at the ends and at the way-points.
-pub(super) fn written<O: Ocp>(
-    ocp: &O,
+pub(super) fn written(
+    ocp: &dyn DynOcp,
     formulation: &Formulation,
     start: &Discretization,
 ) -> Result<(), SolveError> {
@@ -65,8 +65,8 @@ pub(super) fn written<O: Ocp>(
 }
 
 /// Asks that every output is finite at every point of `start`.
-pub(super) fn finite<O: Ocp>(
-    ocp: &O,
+pub(super) fn finite(
+    ocp: &dyn DynOcp,
     formulation: &Formulation,
     start: &Discretization,
 ) -> Result<(), SolveError> {
@@ -77,8 +77,8 @@ pub(super) fn finite<O: Ocp>(
 }
 
 /// Calls every function at the first `points` points and at all instants, and `ask` of each output.
-fn each<O: Ocp>(
-    ocp: &O,
+fn each(
+    ocp: &dyn DynOcp,
     formulation: &Formulation,
     start: &Discretization,
     points: usize,
@@ -99,7 +99,7 @@ fn each<O: Ocp>(
         })
     };
     let cost = |name: &str| [Quantity::new(name, crate::ocp::Interval::FREE)];
-    let mut scratch = ocp.scratch::<f64>();
+    let mut functions = ocp.functions();
     let times = start.times();
     for (k, &t) in times.iter().enumerate().take(points) {
         let (x, u) = (start.state(k), start.control(k));
@@ -107,9 +107,9 @@ fn each<O: Ocp>(
         let mut path = untouched(formulation.path.len());
         let mut integrands = untouched(formulation.integrals.len());
         let point = start.point(x, u, t);
-        let value = ocp.continuous(point, &mut scratch, &mut rates, &mut path);
+        let value = functions.continuous(point, &mut rates, &mut path);
         if !integrands.is_empty() {
-            ocp.integrands(point, &mut scratch, &mut integrands);
+            functions.integrands(point, &mut integrands);
         }
         let function = "continuous";
         ask_list(function, "rates", &formulation.states, &rates, t)?;
@@ -125,7 +125,7 @@ fn each<O: Ocp>(
         integrals: &integrals,
         ..start.ends()
     };
-    let value = ocp.boundary(ends, &mut scratch, &mut rows);
+    let value = functions.boundary(ends, &mut rows);
     ask_list(
         "boundary",
         "rows",
@@ -151,7 +151,7 @@ fn each<O: Ocp>(
             parameters: &start.parameters,
             t: times[k],
         };
-        ocp.way_point(passed, &mut scratch, &mut rows);
+        functions.way_point(passed, &mut rows);
         ask_list("way_point", "rows", &point.rows, &rows, passed.t)?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 //!
 //! Derived in docs/algorithms.md#bounds-between-the-nodes.
 
-use crate::ocp::{Formulation, Ocp, Quantity};
+use crate::ocp::{DynOcp, Formulation, Quantity};
 use crate::transcription::Discretization;
 
 /// What is bounded.
@@ -54,8 +54,8 @@ const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
 /// collocation point, is looked at as well.
 ///
 /// `jumps` says which of them depend on a control.
-pub(super) fn violations<O: Ocp>(
-    ocp: &O,
+pub(super) fn violations(
+    ocp: &dyn DynOcp,
     trajectory: &Discretization,
     jumps: impl Fn(Bounded) -> bool,
 ) -> Vec<Vec<Violation>> {
@@ -69,7 +69,7 @@ pub(super) fn violations<O: Ocp>(
     let path_rows = quantities
         .iter()
         .any(|(what, _)| matches!(what, Bounded::Path(_)));
-    let mut scratch = ocp.scratch::<f64>();
+    let mut functions = ocp.functions();
     let (mut x, mut rates, mut u) = (vec![0.0; n], vec![0.0; n], vec![0.0; m]);
     let mut path = vec![0.0; formulation.path.len()];
     (0..mesh.segments())
@@ -83,7 +83,7 @@ pub(super) fn violations<O: Ocp>(
                 let t = trajectory.time(mesh.fraction(segment, tau));
                 if path_rows {
                     let point = trajectory.point(&x, &u, t);
-                    ocp.continuous(point, &mut scratch, &mut rates, &mut path);
+                    functions.continuous(point, &mut rates, &mut path);
                 }
                 for (worst, &(what, quantity)) in worst.iter_mut().zip(&quantities) {
                     let value = match what {

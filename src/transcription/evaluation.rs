@@ -1,52 +1,48 @@
 //! Evaluates an optimal control problem at all collocation points, each thing once a point.
 
-use super::functions::{Boundary, Node};
 use super::grid::Grid;
 use super::node_derivatives::NodeDerivatives;
 use super::points::{Points, Shared};
 use super::way_point::{WayPointEvaluation, way_points};
 use super::{Layout, Patterns, Structure};
-use crate::autodiff::{Function, SparseDerivatives};
 use crate::collocation::Mesh;
 use crate::nlp::Undefined;
-use crate::ocp::{Formulation, Ocp};
+use crate::ocp::{Derivatives, DynOcp, Formulation, Part, PointShape};
 
 /// Values and derivatives at the current iterate, computed when first asked for.
-pub(super) struct Evaluation<'a, O: Ocp> {
+pub(super) struct Evaluation<'a> {
     layout: Layout,
     fixed_duration: f64,
     fixed_initial_time: f64,
-    pub node: Node<'a, O>,
-    pub ends: Boundary<'a, O>,
-    points: Points<'a, O>,
+    pub node: PointShape,
+    points: Points<'a>,
     /// Widths of the segments.
     pub grid: Grid,
-    pub end_derivatives: SparseDerivatives<Boundary<'a, O>>,
+    pub end_derivatives: Box<dyn Derivatives + 'a>,
     /// Outputs of every point, by points.
     pub values: Vec<f64>,
     /// Jacobian nonzeros of every point, by points.
     pub first: Vec<f64>,
     pub end_values: Vec<f64>,
     pub end_first: Vec<f64>,
-    pub way_points: Vec<WayPointEvaluation<'a, O>>,
+    pub way_points: Vec<WayPointEvaluation<'a>>,
     have_values: bool,
     have_first: bool,
     end_inputs: Vec<f64>,
 }
 
-impl<'a, O: Ocp> Evaluation<'a, O> {
+impl<'a> Evaluation<'a> {
     pub fn new(
-        ocp: &'a O,
+        ocp: &'a dyn DynOcp,
         formulation: &Formulation,
         patterns: &Patterns,
         mesh: &Mesh,
         structure: &Structure,
         layout: Layout,
     ) -> Self {
-        let node = Node::new(ocp, formulation);
-        let ends = Boundary::new(ocp, formulation);
-        let node_derivatives = NodeDerivatives::new(&node, patterns.node.clone());
-        let end_derivatives = SparseDerivatives::new(&ends, patterns.ends.clone());
+        let node = PointShape::of(formulation);
+        let node_derivatives = NodeDerivatives::new(ocp, formulation, patterns.node.clone());
+        let end_derivatives = ocp.differentiate(Part::Ends, formulation, patterns.ends.clone());
         let mut fractions = mesh.node_fractions();
         fractions.pop();
         let starts = (0..layout.points).map(|k| layout.state(k, 0)).collect();
@@ -57,14 +53,20 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
             fixed_initial_time: formulation.initial_time.lower,
             values: vec![0.0; layout.points * node.outputs()],
             first: vec![0.0; layout.points * node_derivatives.jacobian_nonzeros()],
-            points: Points::new(&node, node_derivatives, patterns, fractions, starts),
-            end_values: vec![0.0; ends.outputs()],
-            end_first: vec![0.0; end_derivatives.jacobian_nonzeros()],
+            points: Points::new(
+                ocp,
+                formulation,
+                node_derivatives,
+                patterns,
+                fractions,
+                starts,
+            ),
+            end_values: vec![0.0; Part::Ends.outputs(formulation)],
+            end_first: vec![0.0; patterns.ends.nonzeros()],
             have_values: false,
             have_first: false,
-            end_inputs: vec![0.0; ends.inputs()],
+            end_inputs: vec![0.0; Part::Ends.inputs(formulation)],
             node,
-            ends,
             end_derivatives,
             layout,
         }
@@ -106,8 +108,13 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
     }
 
     /// Derivatives of a collocation point: their structure.
-    pub fn node_derivatives(&self) -> &NodeDerivatives<'a, O> {
+    pub fn node_derivatives(&self) -> &NodeDerivatives<'a> {
         self.points.derivatives()
+    }
+
+    /// Position of Φ among the outputs of the ends.
+    pub fn terminal_cost(&self) -> usize {
+        self.end_values.len() - 1
     }
 
     /// Outputs (f, C, ℒ, g) of point `k`.
@@ -141,10 +148,10 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         }
         self.grid.place(x);
         let shared = self.shared(x);
-        self.points.values(&self.node, x, shared, &mut self.values);
+        self.points.values(x, shared, &mut self.values);
         self.load_ends(x);
         self.end_derivatives
-            .values(&self.ends, &self.end_inputs, &mut self.end_values);
+            .values(&self.end_inputs, &mut self.end_values);
         for point in &mut self.way_points {
             point.evaluate(x, shared);
         }
@@ -158,11 +165,10 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
         }
         self.grid.place(x);
         let shared = self.shared(x);
-        self.points
-            .jacobians(&self.node, x, shared, &mut self.first);
+        self.points.jacobians(x, shared, &mut self.first);
         self.load_ends(x);
         self.end_derivatives
-            .jacobian(&self.ends, &self.end_inputs, &mut self.end_first);
+            .jacobian(&self.end_inputs, &mut self.end_first);
         for point in &mut self.way_points {
             point.differentiate(x, shared);
         }
@@ -184,7 +190,7 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
     /// Weighted Hessians of all points into `out`, `weights` being of all points as well.
     pub fn node_hessians(&mut self, x: &[f64], weights: &[f64], out: &mut [f64]) {
         let shared = self.shared(x);
-        self.points.hessians(&self.node, x, shared, weights, out);
+        self.points.hessians(x, shared, weights, out);
     }
 
     /// Weighted Hessian of way-point `w` into `out`.
@@ -196,7 +202,6 @@ impl<'a, O: Ocp> Evaluation<'a, O> {
     /// Weighted Hessian of the ends into `out`.
     pub fn end_hessian(&mut self, x: &[f64], weights: &[f64], out: &mut [f64]) {
         self.load_ends(x);
-        self.end_derivatives
-            .hessian(&self.ends, &self.end_inputs, weights, out);
+        self.end_derivatives.hessian(&self.end_inputs, weights, out);
     }
 }

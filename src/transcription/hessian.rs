@@ -6,7 +6,6 @@ use super::grid::Grid;
 use super::jacobian::end_column;
 use super::triplets::{Triplets, index};
 use crate::nlp::Undefined;
-use crate::ocp::Ocp;
 use std::collections::HashMap;
 
 /// Second derivatives of one point that involve the duration T through t = t₀ + αT and the factor
@@ -67,7 +66,7 @@ pub(super) struct Hessian {
 }
 
 impl Hessian {
-    pub fn new<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>) -> Self {
+    pub fn new(layout: &Layout, evaluation: &Evaluation<'_>) -> Self {
         let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let mut slots = Slots::default();
@@ -119,7 +118,7 @@ impl Hessian {
             knots,
             weights: vec![0.0; layout.points * sparsity.jacobian.len()],
             blocks: vec![0.0; layout.points * sparsity.hessian.len()],
-            end_weights: vec![0.0; evaluation.ends.rows + 1],
+            end_weights: vec![0.0; evaluation.end_values.len()],
             end_block: vec![0.0; evaluation.end_derivatives.sparsity().hessian.len()],
             by_input: vec![0.0; time + 1],
         }
@@ -127,11 +126,11 @@ impl Hessian {
 
     /// Values of σ∇²f + Σ λ∇²g. Where the duration or a breakpoint is free, values and first
     /// derivatives must be current.
-    pub fn values<O: Ocp>(
+    pub fn values(
         &mut self,
         x: &[f64],
         multipliers: Multipliers<'_>,
-        evaluation: &mut Evaluation<'_, O>,
+        evaluation: &mut Evaluation<'_>,
         values: &mut [f64],
     ) -> Result<(), Undefined> {
         values.fill(0.0);
@@ -214,11 +213,11 @@ impl Hessian {
     /// Second derivatives with the duration: with ψ = T·g(v, t) + c(v, t) and t = t₀ + αT, where g
     /// gathers defects, cost and integrals, ψ_vT = g_v + αT·g_vt + α·c_vt,
     /// ψ_TT = 2α·g_t + α²(T·g_tt + c_tt) and ψ_t₀T = g_t + α(T·g_tt + c_tt).
-    fn duration_terms<O: Ocp>(
+    fn duration_terms(
         &mut self,
         k: usize,
         duration: f64,
-        evaluation: &Evaluation<'_, O>,
+        evaluation: &Evaluation<'_>,
         values: &mut [f64],
     ) {
         let layout = &self.layout;
@@ -263,11 +262,11 @@ impl Hessian {
 impl Hessian {
     /// Second derivatives with the free breakpoints beside a point: with ψ = (TW/2)·g(v), W being
     /// the width, ψ_Wv = (T/2)·g_v and ψ_WT = g/2; the width changes by side with the breakpoint.
-    fn knot_terms<O: Ocp>(
+    fn knot_terms(
         &mut self,
         k: usize,
         duration: f64,
-        evaluation: &Evaluation<'_, O>,
+        evaluation: &Evaluation<'_>,
         values: &mut [f64],
     ) {
         if self.knots.coupling[k].is_empty() {
@@ -301,7 +300,7 @@ impl Hessian {
 }
 
 impl KnotTerms {
-    fn new<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, slots: &mut Slots) -> Self {
+    fn new(layout: &Layout, evaluation: &Evaluation<'_>, slots: &mut Slots) -> Self {
         let mut terms = Self::default();
         if !evaluation.grid.is_free() {
             return terms;
@@ -327,7 +326,7 @@ impl KnotTerms {
 }
 
 impl TimeTerms {
-    fn new<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, slots: &mut Slots) -> Self {
+    fn new(layout: &Layout, evaluation: &Evaluation<'_>, slots: &mut Slots) -> Self {
         let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let depends = sparsity.columns().contains(&time);
@@ -367,7 +366,7 @@ impl TimeTerms {
 
 /// Inputs of point `k` with a second derivative by the duration. Path rows do not carry the factor
 /// T: they couple with it through the time alone, which the first point does not.
-fn coupled_inputs<O: Ocp>(layout: &Layout, evaluation: &Evaluation<'_, O>, k: usize) -> Vec<usize> {
+fn coupled_inputs(layout: &Layout, evaluation: &Evaluation<'_>, k: usize) -> Vec<usize> {
     let sparsity = evaluation.node_derivatives().sparsity();
     let time = evaluation.node.time();
     let path = layout.states..layout.states + layout.path;

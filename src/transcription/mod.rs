@@ -5,7 +5,6 @@
 
 mod discretization;
 mod evaluation;
-mod functions;
 mod grid;
 mod hessian;
 mod jacobian;

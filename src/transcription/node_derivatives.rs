@@ -1,23 +1,24 @@
 //! Values and derivatives of one collocation point, by dual numbers or by the problem's own code.
 
-use super::functions::Node;
-use crate::autodiff::{Function, SparseDerivatives, Sparsity};
-use crate::ocp::{Ocp, PointDerivatives};
+use crate::autodiff::Sparsity;
+use crate::ocp::{Derivatives, DynOcp, Formulation, Functions, Part, PointDerivatives, PointShape};
 
-/// Values, nonzeros of the Jacobian and of the weighted Hessian of a [`Node`]: what one thread
-/// needs, allocated once.
-pub(super) struct NodeDerivatives<'a, O: Ocp> {
+/// Values, nonzeros of the Jacobian and of the weighted Hessian of a collocation point: what one
+/// thread needs, allocated once.
+pub(super) struct NodeDerivatives<'a> {
+    shape: PointShape,
     sparsity: Sparsity,
     nonzeros: usize,
-    plain: O::Scratch<f64>,
-    evaluator: Evaluator<'a, O>,
+    plain: Box<dyn Functions + 'a>,
+    evaluator: Evaluator<'a>,
 }
 
 /// How derivatives are computed.
-enum Evaluator<'a, O: Ocp> {
+enum Evaluator<'a> {
     /// By dual numbers, which sweep over the whole function.
-    DualNumbers(Box<SparseDerivatives<Node<'a, O>>>),
-    /// By the problem itself, [`Ocp::derivatives`]: dense, the nonzeros are picked from them.
+    DualNumbers(Box<dyn Derivatives + 'a>),
+    /// By the problem itself, [`Ocp::derivatives`](crate::ocp::Ocp::derivatives): dense, the nonzeros
+    /// are picked from them.
     Analytic {
         derivatives: Box<dyn PointDerivatives + 'a>,
         dense: Vec<f64>,
@@ -26,13 +27,16 @@ enum Evaluator<'a, O: Ocp> {
     },
 }
 
-impl<'a, O: Ocp> NodeDerivatives<'a, O> {
-    pub fn new(node: &Node<'a, O>, sparsity: Sparsity) -> Self {
-        let (inputs, outputs) = (node.inputs(), node.outputs());
-        let evaluator = match node.ocp.derivatives() {
-            None => {
-                Evaluator::DualNumbers(Box::new(SparseDerivatives::new(node, sparsity.clone())))
-            }
+impl<'a> NodeDerivatives<'a> {
+    pub fn new(ocp: &'a dyn DynOcp, formulation: &Formulation, sparsity: Sparsity) -> Self {
+        let shape = PointShape::of(formulation);
+        let (inputs, outputs) = (shape.inputs(), shape.outputs());
+        let evaluator = match ocp.own_derivatives() {
+            None => Evaluator::DualNumbers(ocp.differentiate(
+                Part::Point,
+                formulation,
+                sparsity.clone(),
+            )),
             Some(derivatives) => Evaluator::Analytic {
                 derivatives,
                 dense: vec![0.0; inputs * inputs.max(outputs)],
@@ -47,8 +51,9 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
             },
         };
         Self {
-            nonzeros: sparsity.jacobian.iter().map(Vec::len).sum(),
-            plain: node.ocp.scratch(),
+            shape,
+            nonzeros: sparsity.nonzeros(),
+            plain: ocp.functions(),
             evaluator,
             sparsity,
         }
@@ -87,39 +92,44 @@ impl<'a, O: Ocp> NodeDerivatives<'a, O> {
     }
 
     /// Values at the inputs `v`, into `out`.
-    pub fn values(&mut self, node: &Node<'a, O>, v: &[f64], out: &mut [f64]) {
-        node.evaluate(v, &mut self.plain, out);
+    pub fn values(&mut self, v: &[f64], out: &mut [f64]) {
+        let [rates, path, cost, integrands] = self.shape.split(out);
+        let point = self.shape.point(v);
+        cost[0] = self.plain.continuous(point, rates, path);
+        if !integrands.is_empty() {
+            self.plain.integrands(point, integrands);
+        }
     }
 
     /// Nonzeros of the Jacobian at `v`, output by output.
-    pub fn jacobian(&mut self, node: &Node<'a, O>, v: &[f64], out: &mut [f64]) {
+    pub fn jacobian(&mut self, v: &[f64], out: &mut [f64]) {
         match &mut self.evaluator {
-            Evaluator::DualNumbers(sparse) => sparse.jacobian(node, v, out),
+            Evaluator::DualNumbers(sparse) => sparse.jacobian(v, out),
             Evaluator::Analytic {
                 derivatives,
                 dense,
                 jacobian,
                 ..
             } => {
-                let dense = &mut dense[..node.outputs() * node.inputs()];
-                derivatives.jacobian(node.point(v), dense);
+                let dense = &mut dense[..self.shape.outputs() * self.shape.inputs()];
+                derivatives.jacobian(self.shape.point(v), dense);
                 pick(dense, jacobian, out);
             }
         }
     }
 
     /// Nonzeros of Σ weightsᵢ ∇²fᵢ at `v`, in the order of [`Sparsity::hessian`].
-    pub fn hessian(&mut self, node: &Node<'a, O>, v: &[f64], weights: &[f64], out: &mut [f64]) {
+    pub fn hessian(&mut self, v: &[f64], weights: &[f64], out: &mut [f64]) {
         match &mut self.evaluator {
-            Evaluator::DualNumbers(sparse) => sparse.hessian(node, v, weights, out),
+            Evaluator::DualNumbers(sparse) => sparse.hessian(v, weights, out),
             Evaluator::Analytic {
                 derivatives,
                 dense,
                 hessian,
                 ..
             } => {
-                let dense = &mut dense[..node.inputs() * node.inputs()];
-                derivatives.hessian(node.point(v), weights, dense);
+                let dense = &mut dense[..self.shape.inputs() * self.shape.inputs()];
+                derivatives.hessian(self.shape.point(v), weights, dense);
                 pick(dense, hessian, out);
             }
         }

@@ -3,10 +3,9 @@
 use super::Layout;
 use super::evaluation::Evaluation;
 use super::jacobian::{end_column, first_slot};
-use crate::ocp::Ocp;
 
 /// Objective (25): terminal cost and quadrature of the running cost.
-pub(super) fn objective<O: Ocp>(duration: f64, evaluation: &Evaluation<'_, O>) -> f64 {
+pub(super) fn objective(duration: f64, evaluation: &Evaluation<'_>) -> f64 {
     let cost = evaluation.node.cost();
     let quadrature = &evaluation.grid.quadrature;
     let integral: f64 = quadrature
@@ -14,14 +13,14 @@ pub(super) fn objective<O: Ocp>(duration: f64, evaluation: &Evaluation<'_, O>) -
         .enumerate()
         .map(|(k, w)| w * evaluation.outputs(k)[cost])
         .sum();
-    evaluation.end_values[evaluation.ends.rows] + duration * integral
+    evaluation.end_values[evaluation.terminal_cost()] + duration * integral
 }
 
 /// Gradient of the objective, dense.
-pub(super) fn gradient<O: Ocp>(
+pub(super) fn gradient(
     duration: f64,
     layout: &Layout,
-    evaluation: &Evaluation<'_, O>,
+    evaluation: &Evaluation<'_>,
     gradient: &mut [f64],
 ) {
     gradient.fill(0.0);
@@ -52,8 +51,8 @@ pub(super) fn gradient<O: Ocp>(
             gradient[variable] += f64::from(side) * by_width;
         }
     }
-    let inputs = &evaluation.end_derivatives.sparsity().jacobian[evaluation.ends.rows];
-    let offset = evaluation.end_derivatives.jacobian_nonzeros() - inputs.len();
+    let inputs = &evaluation.end_derivatives.sparsity().jacobian[evaluation.terminal_cost()];
+    let offset = evaluation.end_first.len() - inputs.len();
     for (&input, d) in inputs.iter().zip(&evaluation.end_first[offset..]) {
         gradient[end_column(layout, input)] += d;
     }

@@ -1,11 +1,10 @@
 //! Patterns held against all derivatives at a few points, should operations have been missed.
 
 use super::Discretization;
-use super::functions::{Boundary, Node, WayPoint};
 use super::node_derivatives::NodeDerivatives;
 use super::patterns::{Patterns, end_times, path_times, used};
-use crate::autodiff::{Function, SparseDerivatives, Sparsity};
-use crate::ocp::{Formulation, Ocp};
+use crate::autodiff::Sparsity;
+use crate::ocp::{DynOcp, Formulation, Part};
 
 /// Most collocation points that are looked at.
 const POINTS: usize = 8;
@@ -20,9 +19,9 @@ impl Patterns {
     /// Operations are recorded at one place. A function that takes others elsewhere, by `if` on a
     /// value, is found out here, unless it does so between the points looked at; one that never asked
     /// for a value has no others. Derivatives that a problem brings itself are looked at in any case.
-    pub fn widened<O: Ocp>(
+    pub fn widened(
         &self,
-        ocp: &O,
+        ocp: &dyn DynOcp,
         formulation: &Formulation,
         trajectory: &Discretization,
     ) -> Option<Self> {
@@ -31,24 +30,20 @@ impl Patterns {
         let states = |k| trajectory.state(k);
         let times = [trajectory.initial_time, trajectory.duration];
         let (parameters, integrals) = (&trajectory.parameters[..], &trajectory.integrals[..]);
-        let ends = Boundary::new(ocp, formulation);
-        let in_ends = Check::new(&ends, &end_times(formulation));
+        let in_ends = Check::new(ocp, formulation, Part::Ends);
         let at = [states(0), states(last), parameters, integrals, &times].concat();
         if in_ends.denies(&self.ends, &at) {
             wide.ends = in_ends.dense;
         }
         for (w, point) in formulation.way_points.iter().enumerate() {
-            let function = WayPoint::new(ocp, formulation, w);
-            let check = Check::new(&function, &end_times(formulation));
+            let check = Check::new(ocp, formulation, Part::WayPoint(w));
             let node = trajectory.mesh.node_at(point.fraction);
             let at = node.map(|k| [states(k), parameters, &times].concat());
             if at.is_some_and(|at| check.denies(&self.way_points[w], &at)) {
                 wide.way_points[w] = check.dense;
             }
         }
-        let node = Node::new(ocp, formulation);
-        let time = path_times(formulation);
-        if let Some(dense) = denied_on_path(&node, &self.node, trajectory, &time) {
+        if let Some(dense) = denied_on_path(ocp, formulation, &self.node, trajectory) {
             wide.node = dense;
         }
         (wide != *self).then_some(wide)
@@ -56,22 +51,23 @@ impl Patterns {
 }
 
 /// All derivatives of a point's functions where `pattern` does not have all that are nonzero.
-fn denied_on_path<O: Ocp>(
-    node: &Node<'_, O>,
+fn denied_on_path(
+    ocp: &dyn DynOcp,
+    formulation: &Formulation,
     pattern: &Sparsity,
     trajectory: &Discretization,
-    time: &[bool],
 ) -> Option<Sparsity> {
-    let rounding = match node.ocp.derivatives() {
+    let rounding = match ocp.own_derivatives() {
         Some(_) => ROUNDING,
         None if !pattern.may_branch => return None,
         None => 0.0,
     };
-    let dense = all(node, time);
+    let outputs = Part::Point.outputs(formulation);
+    let dense = all(Part::Point, formulation, &path_times(formulation));
     if *pattern == dense {
         return None;
     }
-    let mut derivatives = NodeDerivatives::new(node, dense.clone());
+    let mut derivatives = NodeDerivatives::new(ocp, formulation, dense.clone());
     let times = trajectory.times();
     let points = trajectory.mesh.points();
     let count = points.min(POINTS);
@@ -82,16 +78,16 @@ fn denied_on_path<O: Ocp>(
     let denied = places.any(|k| {
         let own = [trajectory.state(k), trajectory.control(k)].concat();
         let at = [&own, &trajectory.parameters, &times[k..=k]].concat();
-        derivatives.jacobian(node, &at, &mut first);
+        derivatives.jacobian(&at, &mut first);
         let missed = first_missed(&dense, pattern, &first, rounding);
         missed || {
-            let weights = weights(node.outputs(), |_| true);
-            derivatives.hessian(node, &at, &weights, &mut second);
+            let weights = weights(outputs, |_| true);
+            derivatives.hessian(&at, &weights, &mut second);
             second_missed(&dense, pattern, &second, rounding) || {
                 let size = largest(&second);
                 let straight = |r: usize| !pattern.curved.contains(&r);
-                let weights = self::weights(node.outputs(), straight);
-                derivatives.hessian(node, &at, &weights, &mut second);
+                let weights = self::weights(outputs, straight);
+                derivatives.hessian(&at, &weights, &mut second);
                 largest(&second) > rounding * size
             }
         }
@@ -99,44 +95,50 @@ fn denied_on_path<O: Ocp>(
     denied.then_some(dense)
 }
 
-/// A function with all of its derivatives.
-struct Check<'f, F: Function> {
-    function: &'f F,
+/// Ends or a way-point with all of the derivatives.
+struct Check<'a> {
+    ocp: &'a dyn DynOcp,
+    formulation: &'a Formulation,
+    part: Part,
     dense: Sparsity,
 }
 
-impl<'f, F: Function> Check<'f, F> {
-    fn new(function: &'f F, times: &[bool]) -> Self {
+impl<'a> Check<'a> {
+    fn new(ocp: &'a dyn DynOcp, formulation: &'a Formulation, part: Part) -> Self {
         Self {
-            function,
-            dense: all(function, times),
+            ocp,
+            formulation,
+            part,
+            dense: all(part, formulation, &end_times(formulation)),
         }
     }
 
     /// Whether a derivative at `at` is nonzero that `pattern` does not have.
     fn denies(&self, pattern: &Sparsity, at: &[f64]) -> bool {
-        let (f, dense) = (self.function, &self.dense);
+        let (dense, outputs) = (&self.dense, self.part.outputs(self.formulation));
         if !pattern.may_branch {
             return false;
         }
-        let mut derivatives = SparseDerivatives::new(f, dense.clone());
-        let mut first = vec![0.0; derivatives.jacobian_nonzeros()];
-        derivatives.jacobian(f, at, &mut first);
+        let mut derivatives = self
+            .ocp
+            .differentiate(self.part, self.formulation, dense.clone());
+        let mut first = vec![0.0; dense.nonzeros()];
+        derivatives.jacobian(at, &mut first);
         let mut second = vec![0.0; dense.hessian.len()];
-        derivatives.hessian(f, at, &weights(f.outputs(), |_| true), &mut second);
+        derivatives.hessian(at, &weights(outputs, |_| true), &mut second);
         if first_missed(dense, pattern, &first, 0.0) || second_missed(dense, pattern, &second, 0.0)
         {
             return true;
         }
         let straight = |r: usize| !pattern.curved.contains(&r);
-        derivatives.hessian(f, at, &weights(f.outputs(), straight), &mut second);
+        derivatives.hessian(at, &weights(outputs, straight), &mut second);
         largest(&second) > 0.0
     }
 }
 
-/// Every derivative of `f`, whose last inputs are times.
-fn all<F: Function>(f: &F, times: &[bool]) -> Sparsity {
-    Sparsity::dense(f.outputs(), &used(f, times))
+/// Every derivative of `part`, whose last inputs are times.
+fn all(part: Part, formulation: &Formulation, times: &[bool]) -> Sparsity {
+    Sparsity::dense(part.outputs(formulation), &used(part, formulation, times))
 }
 
 /// Weights of the outputs that are `wanted`: so different that nothing cancels.

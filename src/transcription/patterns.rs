@@ -1,8 +1,7 @@
 //! Sparsity of a problem's functions, found once and used on every mesh.
 
-use super::functions::{Boundary, Node, WayPoint};
-use crate::autodiff::{Function, Sparsity};
-use crate::ocp::{Formulation, Interval, Ocp, Quantity};
+use crate::autodiff::Sparsity;
+use crate::ocp::{DynOcp, Formulation, Interval, Part, PointShape, Quantity};
 
 /// Which derivatives of (f, C, ℒ, g), of (E, Φ) and of each way-point's rows may be nonzero.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,7 +15,7 @@ impl Patterns {
     /// Follows the operations of each function from its variables to its values.
     ///
     /// Bounds play no part, so that the patterns hold however they are changed.
-    pub fn detect<O: Ocp>(ocp: &O) -> Self {
+    pub fn detect(ocp: &dyn DynOcp) -> Self {
         let formulation = ocp.formulation();
         let inside = |quantities: &[Quantity]| -> Vec<f64> {
             let bounds = quantities.iter().map(|quantity| &quantity.bounds);
@@ -28,26 +27,28 @@ impl Patterns {
         let integrals = inside(&formulation.integrals);
         let times = [&formulation.initial_time, &formulation.duration].map(inner_value);
         let time = times.iter().sum();
-        let branches = ocp.has_branches();
         let points = 0..formulation.way_points.len();
         Self {
             node: find(
-                branches,
-                &Node::new(ocp, &formulation),
+                ocp,
+                Part::Point,
+                &formulation,
                 &path_times(&formulation),
                 &[&states[..], &controls, &parameters, &[time]].concat(),
             ),
             ends: find(
-                branches,
-                &Boundary::new(ocp, &formulation),
+                ocp,
+                Part::Ends,
+                &formulation,
                 &end_times(&formulation),
                 &[&states[..], &states, &parameters, &integrals, &times].concat(),
             ),
             way_points: points
                 .map(|index| {
                     find(
-                        branches,
-                        &WayPoint::new(ocp, &formulation, index),
+                        ocp,
+                        Part::WayPoint(index),
+                        &formulation,
                         &end_times(&formulation),
                         &[&states[..], &parameters, &times].concat(),
                     )
@@ -86,7 +87,7 @@ impl Patterns {
     }
 
     /// Whether rates, path rows, cost or integrands depend on the time, free or not.
-    pub fn depends_on_time<O: Ocp>(ocp: &O) -> bool {
+    pub fn depends_on_time(ocp: &dyn DynOcp) -> bool {
         let formulation = ocp.formulation();
         let quantities = [
             &formulation.states,
@@ -99,11 +100,10 @@ impl Patterns {
             .map(inner_value)
             .chain([times.iter().sum()])
             .collect();
-        let node = Node::new(ocp, &formulation);
         ocp.has_branches()
-            || find(false, &node, &[true], &at)
+            || find(ocp, Part::Point, &formulation, &[true], &at)
                 .columns()
-                .contains(&node.time())
+                .contains(&PointShape::of(&formulation).time())
     }
 }
 
@@ -117,20 +117,27 @@ pub(super) fn end_times(formulation: &Formulation) -> [bool; 2] {
     [&formulation.initial_time, &formulation.duration].map(|time| !time.is_fixed())
 }
 
-/// Which inputs of `f` are unknowns, the last ones being times.
-pub(super) fn used<F: Function>(f: &F, times: &[bool]) -> Vec<bool> {
-    let mut used = vec![true; f.inputs()];
-    used[f.inputs() - times.len()..].copy_from_slice(times);
+/// Which inputs of `part` are unknowns, the last ones being times.
+pub(super) fn used(part: Part, formulation: &Formulation, times: &[bool]) -> Vec<bool> {
+    let inputs = part.inputs(formulation);
+    let mut used = vec![true; inputs];
+    used[inputs - times.len()..].copy_from_slice(times);
     used
 }
 
-/// The pattern of `f`, evaluated at `at`.
-fn find<F: Function>(branches: bool, f: &F, times: &[bool], at: &[f64]) -> Sparsity {
-    let used = used(f, times);
-    if branches {
-        Sparsity::dense(f.outputs(), &used)
+/// The pattern of `part`, evaluated at `at`.
+fn find(
+    ocp: &dyn DynOcp,
+    part: Part,
+    formulation: &Formulation,
+    times: &[bool],
+    at: &[f64],
+) -> Sparsity {
+    let used = used(part, formulation, times);
+    if ocp.has_branches() {
+        Sparsity::dense(part.outputs(formulation), &used)
     } else {
-        Sparsity::traced(f, &used, at)
+        ocp.trace(part, formulation, &used, at)
     }
 }
 

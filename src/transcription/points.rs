@@ -1,10 +1,8 @@
 //! All collocation points at one iterate, on several threads where that pays.
 
 use super::Patterns;
-use super::functions::Node;
 use super::node_derivatives::NodeDerivatives;
-use crate::autodiff::Function;
-use crate::ocp::Ocp;
+use crate::ocp::{DynOcp, Formulation, PointShape};
 use crate::parallel;
 
 /// Least work, in points times inputs squared, that is worth waking threads for.
@@ -20,20 +18,21 @@ const MOST: usize = 8;
 const MOST_KEPT: usize = 1 << 20;
 
 /// Evaluates every point, each by itself, so that results do not depend on the number of threads.
-pub(super) struct Points<'a, O: Ocp> {
+pub(super) struct Points<'a> {
     /// Fractions of the duration of the collocation points.
     fractions: Vec<f64>,
     /// First variable of each collocation point.
     starts: Vec<usize>,
-    workers: Vec<Worker<'a, O>>,
+    shape: PointShape,
+    workers: Vec<Worker<'a>>,
     work: usize,
     /// What first derivatives leave to second ones, a piece for each of the first points.
     kept: Vec<f64>,
 }
 
 /// What one thread needs.
-struct Worker<'a, O: Ocp> {
-    derivatives: NodeDerivatives<'a, O>,
+struct Worker<'a> {
+    derivatives: NodeDerivatives<'a>,
     inputs: Vec<f64>,
 }
 
@@ -47,24 +46,26 @@ pub(super) struct Shared<'v> {
 
 /// An iterate.
 #[derive(Clone, Copy)]
-struct Iterate<'v, 'a, O> {
-    node: &'v Node<'a, O>,
+struct Iterate<'v> {
+    shape: PointShape,
     x: &'v [f64],
     shared: Shared<'v>,
 }
 
-impl<'a, O: Ocp> Points<'a, O> {
+impl<'a> Points<'a> {
     pub fn new(
-        node: &Node<'a, O>,
-        derivatives: NodeDerivatives<'a, O>,
+        ocp: &'a dyn DynOcp,
+        formulation: &Formulation,
+        derivatives: NodeDerivatives<'a>,
         patterns: &Patterns,
         fractions: Vec<f64>,
         starts: Vec<usize>,
     ) -> Self {
-        let work = fractions.len() * node.inputs().pow(2);
+        let shape = PointShape::of(formulation);
+        let work = fractions.len() * shape.inputs().pow(2);
         let worker = |derivatives| Worker {
             derivatives,
-            inputs: vec![0.0; node.inputs()],
+            inputs: vec![0.0; shape.inputs()],
         };
         let piece = derivatives.kept();
         let all = piece * fractions.len();
@@ -72,12 +73,19 @@ impl<'a, O: Ocp> Points<'a, O> {
         let mut workers = vec![worker(derivatives)];
         if work >= LEAST_WORK {
             let count = parallel::thread_count().min(MOST);
-            let another = || worker(NodeDerivatives::new(node, patterns.node.clone()));
+            let another = || {
+                worker(NodeDerivatives::new(
+                    ocp,
+                    formulation,
+                    patterns.node.clone(),
+                ))
+            };
             workers.resize_with(count, another);
         }
         Self {
             fractions,
             starts,
+            shape,
             workers,
             work,
             kept,
@@ -88,55 +96,43 @@ impl<'a, O: Ocp> Points<'a, O> {
         &self.fractions
     }
 
-    pub fn derivatives(&self) -> &NodeDerivatives<'a, O> {
+    pub fn derivatives(&self) -> &NodeDerivatives<'a> {
         &self.workers[0].derivatives
     }
 
     /// Outputs of every point, by points.
-    pub fn values(&mut self, node: &Node<'a, O>, x: &[f64], shared: Shared<'_>, out: &mut [f64]) {
+    pub fn values(&mut self, x: &[f64], shared: Shared<'_>, out: &mut [f64]) {
         let count = if self.work < VALUES * LEAST_WORK {
             1
         } else {
             self.workers.len()
         };
-        let iterate = Iterate { node, x, shared };
+        let shape = self.shape;
+        let iterate = Iterate { shape, x, shared };
         self.each(count, iterate, out, |worker, _, _, out| {
-            worker.derivatives.values(node, &worker.inputs, out);
+            worker.derivatives.values(&worker.inputs, out);
         });
     }
 
     /// Jacobian nonzeros of every point, by points.
-    pub fn jacobians(
-        &mut self,
-        node: &Node<'a, O>,
-        x: &[f64],
-        shared: Shared<'_>,
-        out: &mut [f64],
-    ) {
-        let iterate = Iterate { node, x, shared };
+    pub fn jacobians(&mut self, x: &[f64], shared: Shared<'_>, out: &mut [f64]) {
+        let shape = self.shape;
+        let iterate = Iterate { shape, x, shared };
         self.each(self.workers.len(), iterate, out, |worker, _, kept, out| {
-            worker.derivatives.jacobian(node, &worker.inputs, out);
+            worker.derivatives.jacobian(&worker.inputs, out);
             worker.derivatives.keep(kept);
         });
     }
 
     /// Weighted Hessians of every point, by points.
-    pub fn hessians(
-        &mut self,
-        node: &Node<'a, O>,
-        x: &[f64],
-        shared: Shared<'_>,
-        weights: &[f64],
-        out: &mut [f64],
-    ) {
-        let iterate = Iterate { node, x, shared };
-        let width = node.outputs();
+    pub fn hessians(&mut self, x: &[f64], shared: Shared<'_>, weights: &[f64], out: &mut [f64]) {
+        let shape = self.shape;
+        let iterate = Iterate { shape, x, shared };
+        let width = shape.outputs();
         self.each(self.workers.len(), iterate, out, |worker, k, kept, out| {
             let weights = &weights[k * width..(k + 1) * width];
             worker.derivatives.recall(kept);
-            worker
-                .derivatives
-                .hessian(node, &worker.inputs, weights, out);
+            worker.derivatives.hessian(&worker.inputs, weights, out);
         });
     }
 
@@ -145,9 +141,9 @@ impl<'a, O: Ocp> Points<'a, O> {
     fn each(
         &mut self,
         count: usize,
-        iterate: Iterate<'_, 'a, O>,
+        iterate: Iterate<'_>,
         out: &mut [f64],
-        body: impl Fn(&mut Worker<'a, O>, usize, &mut [f64], &mut [f64]) + Sync,
+        body: impl Fn(&mut Worker<'a>, usize, &mut [f64], &mut [f64]) + Sync,
     ) {
         let points = self.fractions.len();
         let width = out.len() / points;
@@ -155,7 +151,7 @@ impl<'a, O: Ocp> Points<'a, O> {
             return;
         }
         let (fractions, starts) = (&self.fractions, &self.starts);
-        let visit = |worker: &mut Worker<'a, O>, k: usize, kept: &mut [f64], out: &mut [f64]| {
+        let visit = |worker: &mut Worker<'a>, k: usize, kept: &mut [f64], out: &mut [f64]| {
             iterate.load(starts[k], fractions[k], &mut worker.inputs);
             body(worker, k, kept, out);
         };
@@ -182,11 +178,11 @@ impl<'a, O: Ocp> Points<'a, O> {
     }
 }
 
-impl<O: Ocp> Iterate<'_, '_, O> {
+impl Iterate<'_> {
     /// Inputs (x, u, p, t) of the point whose variables begin at `start`.
     fn load(&self, start: usize, fraction: f64, inputs: &mut [f64]) {
-        let width = self.node.own();
-        let time = self.node.time();
+        let width = self.shape.own();
+        let time = self.shape.time();
         inputs[..width].copy_from_slice(&self.x[start..start + width]);
         inputs[width..time].copy_from_slice(self.shared.parameters);
         inputs[time] = self.shared.initial_time + fraction * self.shared.duration;

@@ -11,26 +11,27 @@ use super::triplets::Triplets;
 use super::{Discretization, Layout, Patterns, Structure};
 use crate::collocation::Mesh;
 use crate::nlp::{Iterate, Nlp, Size, Undefined};
-use crate::ocp::{Formulation, Interval, Ocp};
+use crate::ocp::{DynOcp, Formulation, Interval};
 use std::fmt;
 
 /// Part of the steepest slope by a control on a bound that may point inward elsewhere in its arc.
 const WRONG: f64 = 0.05;
 
 /// An optimal control problem on one mesh: minimise (25) subject to (26) and (27).
-pub struct Transcription<'a, O: Ocp> {
+pub struct Transcription<'a> {
     formulation: Formulation,
     mesh: Mesh,
     structure: Structure,
     structural: Vec<LinearRow>,
     layout: Layout,
     names: Names,
-    evaluation: Evaluation<'a, O>,
+    ocp: &'a dyn DynOcp,
+    evaluation: Evaluation<'a>,
     jacobian: Jacobian,
     hessian: Hessian,
 }
 
-impl<O: Ocp> fmt::Debug for Transcription<'_, O> {
+impl fmt::Debug for Transcription<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Transcription")
             .field("mesh", &self.mesh)
@@ -39,14 +40,19 @@ impl<O: Ocp> fmt::Debug for Transcription<'_, O> {
     }
 }
 
-impl<'a, O: Ocp> Transcription<'a, O> {
+impl<'a> Transcription<'a> {
     /// Lays the problem out on `mesh`, with its sparsity as found by [`Patterns::detect`].
-    pub fn new(ocp: &'a O, patterns: &Patterns, mesh: Mesh) -> Self {
+    pub fn new(ocp: &'a dyn DynOcp, patterns: &Patterns, mesh: Mesh) -> Self {
         Self::within(ocp, ocp.formulation(), patterns, mesh)
     }
 
     /// The same within the bounds of `formulation`, which is that of the problem but for them.
-    pub fn within(ocp: &'a O, formulation: Formulation, patterns: &Patterns, mesh: Mesh) -> Self {
+    pub fn within(
+        ocp: &'a dyn DynOcp,
+        formulation: Formulation,
+        patterns: &Patterns,
+        mesh: Mesh,
+    ) -> Self {
         Self::structured(ocp, formulation, patterns, mesh, Structure::default())
     }
 
@@ -55,7 +61,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
     /// # Panics
     /// Where breakpoints are free and the problem depends on time.
     pub fn structured(
-        ocp: &'a O,
+        ocp: &'a dyn DynOcp,
         formulation: Formulation,
         patterns: &Patterns,
         mesh: Mesh,
@@ -78,6 +84,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
             "free breakpoints need a problem that does not depend on time"
         );
         Self {
+            ocp,
             names: Names::new(formulation.clone(), &mesh),
             jacobian: Jacobian::new(&Parts {
                 layout: &layout,
@@ -130,8 +137,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
     /// # Panics
     /// Where the trajectory has not as many static parameters as the problem.
     pub fn pack(&self, trajectory: &Discretization) -> Vec<f64> {
-        let ocp = self.evaluation.node.ocp;
-        let integrals = integrals(ocp, &self.formulation, trajectory);
+        let integrals = integrals(self.ocp, &self.formulation, trajectory);
         let layout = &self.layout;
         let mut x = vec![0.0; layout.variables()];
         for k in 0..=layout.points {
@@ -181,7 +187,7 @@ impl<'a, O: Ocp> Transcription<'a, O> {
     }
 }
 
-impl<O: Ocp> Nlp for Transcription<'_, O> {
+impl Nlp for Transcription<'_> {
     fn size(&self) -> Size {
         Size {
             variables: self.layout.variables(),
@@ -412,7 +418,7 @@ impl<O: Ocp> Nlp for Transcription<'_, O> {
     }
 }
 
-impl<O: Ocp> Transcription<'_, O> {
+impl Transcription<'_> {
     /// Values and first derivatives; values only where a derivative by the duration needs them.
     fn need_all(&mut self, x: &[f64]) -> Result<(), Undefined> {
         if self.layout.free_duration || self.evaluation.grid.is_free() {

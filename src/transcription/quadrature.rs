@@ -2,7 +2,7 @@
 
 use super::Discretization;
 use crate::collocation::Mesh;
-use crate::ocp::{Formulation, Ocp};
+use crate::ocp::{DynOcp, Formulation};
 
 /// Quadrature weight of each point, fraction of the duration; sum 1.
 pub(super) fn quadrature(mesh: &Mesh) -> Vec<f64> {
@@ -17,8 +17,8 @@ pub(super) fn quadrature(mesh: &Mesh) -> Vec<f64> {
 }
 
 /// Value of each integral of `ocp` on `trajectory`, by the quadrature of its mesh.
-pub fn integrals<O: Ocp>(
-    ocp: &O,
+pub fn integrals(
+    ocp: &dyn DynOcp,
     formulation: &Formulation,
     trajectory: &Discretization,
 ) -> Vec<f64> {
@@ -26,15 +26,15 @@ pub fn integrals<O: Ocp>(
     if sums.is_empty() {
         return sums;
     }
-    let mut scratch = ocp.scratch::<f64>();
+    let mut functions = ocp.functions();
     let mut rates = vec![0.0; formulation.states.len()];
     let mut path = vec![0.0; formulation.path.len()];
     let mut integrands = vec![0.0; sums.len()];
     let times = trajectory.times();
     for (k, weight) in quadrature(&trajectory.mesh).into_iter().enumerate() {
         let point = trajectory.point(trajectory.state(k), trajectory.control(k), times[k]);
-        ocp.continuous(point, &mut scratch, &mut rates, &mut path);
-        ocp.integrands(point, &mut scratch, &mut integrands);
+        functions.continuous(point, &mut rates, &mut path);
+        functions.integrands(point, &mut integrands);
         for (sum, value) in sums.iter_mut().zip(&integrands) {
             *sum += trajectory.duration * weight * value;
         }

@@ -1,7 +1,7 @@
 //! Where a trajectory goes: the range of every quantity, and which bounds lie far outside it.
 
 use super::Discretization;
-use crate::ocp::{Formulation, InteriorPoint, Interval, Ocp, Quantity};
+use crate::ocp::{DynOcp, Formulation, InteriorPoint, Interval, Quantity};
 
 /// A bound this many times as large as anything on the way to it cannot act.
 const FAR: f64 = 1e4;
@@ -25,7 +25,7 @@ const NOWHERE: Interval = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
 
 impl Reach {
     /// That of `trajectory`, which has a node at every way-point.
-    pub fn of<O: Ocp>(ocp: &O, formulation: &Formulation, trajectory: &Discretization) -> Self {
+    pub fn of(ocp: &dyn DynOcp, formulation: &Formulation, trajectory: &Discretization) -> Self {
         let (n, m) = formulation.widths();
         let mut reach = Self {
             states: vec![NOWHERE; n],
@@ -38,7 +38,7 @@ impl Reach {
             initial_time: trajectory.initial_time,
             duration: trajectory.duration,
         };
-        let mut scratch = ocp.scratch::<f64>();
+        let mut functions = ocp.functions();
         let (mut rates, mut path) = (vec![0.0; n], vec![0.0; formulation.path.len()]);
         let times = trajectory.times();
         let points = trajectory.mesh.points();
@@ -49,12 +49,12 @@ impl Reach {
                 let u = trajectory.control(k);
                 widen(&mut reach.controls, u);
                 let point = trajectory.point(x, u, t);
-                ocp.continuous(point, &mut scratch, &mut rates, &mut path);
+                functions.continuous(point, &mut rates, &mut path);
                 widen(&mut reach.path, &path);
             }
         }
         let mut rows = vec![0.0; formulation.boundary.len()];
-        ocp.boundary(trajectory.ends(), &mut scratch, &mut rows);
+        functions.boundary(trajectory.ends(), &mut rows);
         widen(&mut reach.boundary, &rows);
         for (way_point, point) in formulation.way_points.iter().enumerate() {
             let mut ranges = vec![NOWHERE; point.rows.len()];
@@ -66,7 +66,7 @@ impl Reach {
                     parameters: &trajectory.parameters,
                     t: times[node],
                 };
-                ocp.way_point(passed, &mut scratch, &mut rows);
+                functions.way_point(passed, &mut rows);
                 widen(&mut ranges, &rows);
             }
             reach.way_points.push(ranges);

@@ -1,15 +1,14 @@
 //! Evaluates the rows of the way-points, each at its own node.
 
-use super::functions::WayPoint;
 use super::points::Shared;
 use super::{Layout, Patterns};
-use crate::autodiff::{Function, SparseDerivatives, Sparsity};
-use crate::ocp::{Formulation, Ocp};
+use crate::autodiff::Sparsity;
+use crate::ocp::{Derivatives, DynOcp, Formulation, Part, WayPointShape};
 
 /// One way-point with its values and derivatives at the current iterate.
-pub(super) struct WayPointEvaluation<'a, O: Ocp> {
-    function: WayPoint<'a, O>,
-    derivatives: SparseDerivatives<WayPoint<'a, O>>,
+pub(super) struct WayPointEvaluation<'a> {
+    shape: WayPointShape,
+    derivatives: Box<dyn Derivatives + 'a>,
     /// Variable behind each input: the states at its node, static parameters, t₀, the duration.
     pub columns: Vec<usize>,
     pub values: Vec<f64>,
@@ -19,41 +18,41 @@ pub(super) struct WayPointEvaluation<'a, O: Ocp> {
 }
 
 /// The way-points of a problem.
-pub(super) fn way_points<'a, O: Ocp>(
-    ocp: &'a O,
+pub(super) fn way_points<'a>(
+    ocp: &'a dyn DynOcp,
     formulation: &Formulation,
     patterns: &Patterns,
     layout: &Layout,
-) -> Vec<WayPointEvaluation<'a, O>> {
+) -> Vec<WayPointEvaluation<'a>> {
     layout
         .way_point_nodes()
         .enumerate()
         .map(|(index, node)| {
-            let function = WayPoint::new(ocp, formulation, index);
-            let derivatives = SparseDerivatives::new(&function, patterns.way_points[index].clone());
+            let shape = WayPointShape::of(formulation, index);
+            let pattern = &patterns.way_points[index];
             let states = (0..layout.states).map(|i| layout.state(node, i));
             WayPointEvaluation {
                 columns: states
                     .chain((0..layout.parameters).map(|i| layout.parameter(i)))
                     .chain([layout.initial_time(), layout.duration()])
                     .collect(),
-                values: vec![0.0; function.rows],
-                first: vec![0.0; derivatives.jacobian_nonzeros()],
-                inputs: vec![0.0; function.inputs()],
-                derivatives,
-                function,
+                values: vec![0.0; shape.outputs()],
+                first: vec![0.0; pattern.nonzeros()],
+                inputs: vec![0.0; shape.inputs()],
+                derivatives: ocp.differentiate(Part::WayPoint(index), formulation, pattern.clone()),
+                shape,
             }
         })
         .collect()
 }
 
-impl<O: Ocp> WayPointEvaluation<'_, O> {
+impl WayPointEvaluation<'_> {
     pub fn sparsity(&self) -> &Sparsity {
         self.derivatives.sparsity()
     }
 
     fn load(&mut self, x: &[f64], shared: Shared<'_>) {
-        let states = self.function.states;
+        let states = self.shape.states;
         let node = self.columns[0];
         let times = states + shared.parameters.len();
         self.inputs[..states].copy_from_slice(&x[node..node + states]);
@@ -64,20 +63,17 @@ impl<O: Ocp> WayPointEvaluation<'_, O> {
 
     pub fn evaluate(&mut self, x: &[f64], shared: Shared<'_>) {
         self.load(x, shared);
-        self.derivatives
-            .values(&self.function, &self.inputs, &mut self.values);
+        self.derivatives.values(&self.inputs, &mut self.values);
     }
 
     pub fn differentiate(&mut self, x: &[f64], shared: Shared<'_>) {
         self.load(x, shared);
-        self.derivatives
-            .jacobian(&self.function, &self.inputs, &mut self.first);
+        self.derivatives.jacobian(&self.inputs, &mut self.first);
     }
 
     /// Weighted Hessian into `out`.
     pub fn hessian(&mut self, x: &[f64], shared: Shared<'_>, weights: &[f64], out: &mut [f64]) {
         self.load(x, shared);
-        self.derivatives
-            .hessian(&self.function, &self.inputs, weights, out);
+        self.derivatives.hessian(&self.inputs, weights, out);
     }
 }

@@ -80,7 +80,7 @@ fn mesh() -> Mesh {
     Mesh::new(vec![0.0, 0.2, 0.4, 0.8, 1.0], &[2, 3, 2, 2]).unwrap()
 }
 
-fn programme(problem: &Coupled) -> Transcription<'_, Coupled> {
+fn programme(problem: &Coupled) -> Transcription<'_> {
     let patterns = Patterns::detect(problem);
     Transcription::structured(
         problem,

@@ -3,7 +3,6 @@
 use super::slots::{end_column, first_slot};
 use super::term::Term;
 use crate::collocation::Mesh;
-use crate::ocp::Ocp;
 use crate::transcription::Layout;
 use crate::transcription::evaluation::Evaluation;
 use crate::transcription::structure::LinearRow;
@@ -24,15 +23,15 @@ pub(super) struct Builder {
 }
 
 /// What a Jacobian is made from.
-pub(in crate::transcription) struct Parts<'p, 'a, O: Ocp> {
+pub(in crate::transcription) struct Parts<'p, 'a> {
     pub layout: &'p Layout,
     pub mesh: &'p Mesh,
     pub structural: &'p [LinearRow],
-    pub evaluation: &'p Evaluation<'a, O>,
+    pub evaluation: &'p Evaluation<'a>,
 }
 
 impl Builder {
-    pub fn build<O: Ocp>(parts: &Parts<'_, '_, O>) -> Self {
+    pub fn build(parts: &Parts<'_, '_>) -> Self {
         let Parts {
             layout,
             mesh,
@@ -86,11 +85,11 @@ impl Builder {
     }
 
     /// Rows (26) of point `i` of segment `s`.
-    fn defects<O: Ocp>(
+    fn defects(
         &mut self,
         layout: &Layout,
         mesh: &Mesh,
-        evaluation: &Evaluation<'_, O>,
+        evaluation: &Evaluation<'_>,
         s: usize,
         i: usize,
     ) {
@@ -149,7 +148,7 @@ impl Builder {
         }
     }
 
-    fn path<O: Ocp>(&mut self, layout: &Layout, evaluation: &Evaluation<'_, O>, point: usize) {
+    fn path(&mut self, layout: &Layout, evaluation: &Evaluation<'_>, point: usize) {
         let sparsity = evaluation.node_derivatives().sparsity();
         let mut slot = first_slot(sparsity, layout.states);
         for p in 0..layout.path {
@@ -187,12 +186,7 @@ impl Builder {
     }
 
     /// Rows of the way-point at the node `point`, where there is one.
-    fn way_points<O: Ocp>(
-        &mut self,
-        layout: &Layout,
-        evaluation: &Evaluation<'_, O>,
-        point: usize,
-    ) {
+    fn way_points(&mut self, layout: &Layout, evaluation: &Evaluation<'_>, point: usize) {
         let here = layout.way_point_nodes().position(|node| node == point);
         let Some(way_point) = here else { return };
         let evaluated = &evaluation.way_points[way_point];
@@ -210,7 +204,7 @@ impl Builder {
         }
     }
 
-    fn boundary<O: Ocp>(&mut self, layout: &Layout, evaluation: &Evaluation<'_, O>) {
+    fn boundary(&mut self, layout: &Layout, evaluation: &Evaluation<'_>) {
         let mut slot = 0;
         for b in 0..layout.boundary {
             for &input in &evaluation.end_derivatives.sparsity().jacobian[b] {
@@ -226,7 +220,7 @@ impl Builder {
     }
 
     /// The row of integral `i`: its value less the quadrature of its integrand.
-    fn integral<O: Ocp>(&mut self, layout: &Layout, evaluation: &Evaluation<'_, O>, i: usize) {
+    fn integral(&mut self, layout: &Layout, evaluation: &Evaluation<'_>, i: usize) {
         let sparsity = evaluation.node_derivatives().sparsity();
         let time = evaluation.node.time();
         let output = evaluation.node.cost() + 1 + i;

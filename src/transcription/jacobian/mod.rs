@@ -16,7 +16,6 @@ pub(super) use slots::{end_column, first_slot};
 use super::evaluation::Evaluation;
 use super::triplets::Triplets;
 use crate::collocation::Mesh;
-use crate::ocp::Ocp;
 use builder::Builder;
 use term::Term;
 
@@ -33,7 +32,7 @@ pub(super) struct Jacobian {
 }
 
 impl Jacobian {
-    pub fn new<O: Ocp>(parts: &Parts<'_, '_, O>) -> Self {
+    pub fn new(parts: &Parts<'_, '_>) -> Self {
         let sparsity = parts.evaluation.node_derivatives().sparsity();
         let time = parts.evaluation.node.time();
         let by_time = |output: usize| {
@@ -53,15 +52,15 @@ impl Jacobian {
 
     /// Rows and columns of the nonzeros. They are asked for as a solve begins, and not kept: Ipopt has its
     /// own copy.
-    pub fn places<O: Ocp>(parts: &Parts<'_, '_, O>) -> Triplets {
+    pub fn places(parts: &Parts<'_, '_>) -> Triplets {
         Builder::build(parts).places
     }
 
-    pub fn values<O: Ocp>(
+    pub fn values(
         &self,
         duration: f64,
         mesh: &Mesh,
-        evaluation: &Evaluation<'_, O>,
+        evaluation: &Evaluation<'_>,
         values: &mut [f64],
     ) {
         values.fill(0.0);
