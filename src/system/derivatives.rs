@@ -21,13 +21,11 @@ const PARAMETERS: usize = 4;
 const BASE: usize = 8;
 
 /// Derivatives for `system`, with as many directions in one sweep as it has use for; for few joints
-/// compiled for their number.
+/// compiled for their number, unless the processor is so old that this is not worth the compiling.
 pub(super) fn of<Sp: Space>(system: &FreeFloating<Sp>) -> Box<dyn PointDerivatives + '_> {
     match (system.joint_count(), has_fused()) {
         (2, true) => Box::new(NodeDerivatives::<Sp, InPlace<2>, 4, true>::new(system)),
-        (2, false) => Box::new(NodeDerivatives::<Sp, InPlace<2>, 4, false>::new(system)),
         (3, true) => Box::new(NodeDerivatives::<Sp, InPlace<3>, 8, true>::new(system)),
-        (3, false) => Box::new(NodeDerivatives::<Sp, InPlace<3>, 8, false>::new(system)),
         (_, true) => Box::new(NodeDerivatives::<Sp, Heap, 16, true>::new(system)),
         (_, false) => Box::new(NodeDerivatives::<Sp, Heap, 16, false>::new(system)),
     }
