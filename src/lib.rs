@@ -77,7 +77,7 @@ pub mod ocp {
     pub use elastic::{Elastic, LimitGroup, Limited};
     pub use formulation::{Formulation, Quantity, WayPoint};
     pub use functions::Part;
-    pub(crate) use functions::{PointShape, WayPointShape};
+    pub(crate) use functions::{PointShape, Shape, WayPointShape};
     pub use interval::Interval;
     pub(crate) use invariants::{Dependent, dependent};
     pub use point::{Ends, InteriorPoint, Point};

@@ -1,6 +1,6 @@
 //! An optimal control problem behind a vtable.
 
-use super::functions::{AtEnds, AtPoint, AtWayPoint, EndsShape, Part, PointShape, WayPointShape};
+use super::functions::{EndsShape, Of, Part, PointShape, WayPointShape};
 use super::{Ends, Formulation, InteriorPoint, Ocp, Point, PointDerivatives};
 use crate::autodiff::{Function, SparseDerivatives, Sparsity};
 
@@ -85,11 +85,19 @@ impl<O: Ocp> DynOcp for O {
     }
 
     fn trace(&self, part: Part, formulation: &Formulation, used: &[bool], at: &[f64]) -> Sparsity {
+        let ocp = self;
         match part {
-            Part::Point => Sparsity::traced(&at_point(self, formulation), used, at),
-            Part::Ends => Sparsity::traced(&at_ends(self, formulation), used, at),
+            Part::Point => {
+                let shape = PointShape::of(formulation);
+                Sparsity::traced(&Of { ocp, shape }, used, at)
+            }
+            Part::Ends => {
+                let shape = EndsShape::of(formulation);
+                Sparsity::traced(&Of { ocp, shape }, used, at)
+            }
             Part::WayPoint(index) => {
-                Sparsity::traced(&at_way_point(self, formulation, index), used, at)
+                let shape = WayPointShape::of(formulation, index);
+                Sparsity::traced(&Of { ocp, shape }, used, at)
             }
         }
     }
@@ -100,29 +108,22 @@ impl<O: Ocp> DynOcp for O {
         formulation: &Formulation,
         sparsity: Sparsity,
     ) -> Box<dyn Derivatives + '_> {
+        let ocp = self;
         match part {
-            Part::Point => Differentiated::boxed(at_point(self, formulation), sparsity),
-            Part::Ends => Differentiated::boxed(at_ends(self, formulation), sparsity),
+            Part::Point => {
+                let shape = PointShape::of(formulation);
+                Differentiated::boxed(Of { ocp, shape }, sparsity)
+            }
+            Part::Ends => {
+                let shape = EndsShape::of(formulation);
+                Differentiated::boxed(Of { ocp, shape }, sparsity)
+            }
             Part::WayPoint(index) => {
-                Differentiated::boxed(at_way_point(self, formulation, index), sparsity)
+                let shape = WayPointShape::of(formulation, index);
+                Differentiated::boxed(Of { ocp, shape }, sparsity)
             }
         }
     }
-}
-
-fn at_point<'a, O>(ocp: &'a O, formulation: &Formulation) -> AtPoint<'a, O> {
-    let shape = PointShape::of(formulation);
-    AtPoint { ocp, shape }
-}
-
-fn at_ends<'a, O>(ocp: &'a O, formulation: &Formulation) -> AtEnds<'a, O> {
-    let shape = EndsShape::of(formulation);
-    AtEnds { ocp, shape }
-}
-
-fn at_way_point<'a, O>(ocp: &'a O, formulation: &Formulation, index: usize) -> AtWayPoint<'a, O> {
-    let shape = WayPointShape::of(formulation, index);
-    AtWayPoint { ocp, shape }
 }
 
 struct WithScratch<'a, O: Ocp> {

@@ -34,6 +34,24 @@ impl Part {
     }
 }
 
+/// The sizes of a [`Part`], and how its inputs and outputs are those of a problem's function.
+pub(crate) trait Shape: Send {
+    /// Number of inputs.
+    fn inputs(&self) -> usize;
+
+    /// Number of outputs.
+    fn outputs(&self) -> usize;
+
+    /// Writes the outputs of `ocp` at the inputs `v` into `out`.
+    fn evaluate<O: Ocp, S: Scalar>(
+        &self,
+        ocp: &O,
+        v: &[S],
+        scratch: &mut O::Scratch<S>,
+        out: &mut [S],
+    );
+}
+
 /// Sizes of [`Part::Point`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PointShape {
@@ -71,14 +89,6 @@ impl PointShape {
         self.states + self.path
     }
 
-    pub fn inputs(&self) -> usize {
-        self.time() + 1
-    }
-
-    pub fn outputs(&self) -> usize {
-        self.cost() + 1 + self.integrals
-    }
-
     /// The point that the inputs `v` describe.
     pub fn point<'v, S: Scalar>(&self, v: &'v [S]) -> Point<'v, S> {
         let (x, rest) = v.split_at(self.states);
@@ -101,6 +111,31 @@ impl PointShape {
     }
 }
 
+impl Shape for PointShape {
+    fn inputs(&self) -> usize {
+        self.time() + 1
+    }
+
+    fn outputs(&self) -> usize {
+        self.cost() + 1 + self.integrals
+    }
+
+    fn evaluate<O: Ocp, S: Scalar>(
+        &self,
+        ocp: &O,
+        v: &[S],
+        scratch: &mut O::Scratch<S>,
+        out: &mut [S],
+    ) {
+        let [rates, path, cost, integrands] = self.split(out);
+        let point = self.point(v);
+        cost[0] = ocp.continuous(point, scratch, rates, path);
+        if !integrands.is_empty() {
+            ocp.integrands(point, scratch, integrands);
+        }
+    }
+}
+
 /// Sizes of [`Part::Ends`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EndsShape {
@@ -119,13 +154,38 @@ impl EndsShape {
             rows: formulation.boundary.len(),
         }
     }
+}
 
-    pub fn inputs(&self) -> usize {
+impl Shape for EndsShape {
+    fn inputs(&self) -> usize {
         2 * self.states + self.parameters + self.integrals + 2
     }
 
-    pub fn outputs(&self) -> usize {
+    fn outputs(&self) -> usize {
         self.rows + 1
+    }
+
+    fn evaluate<O: Ocp, S: Scalar>(
+        &self,
+        ocp: &O,
+        v: &[S],
+        scratch: &mut O::Scratch<S>,
+        out: &mut [S],
+    ) {
+        let (rows, cost) = out.split_at_mut(self.rows);
+        let (initial, rest) = v.split_at(self.states);
+        let (terminal, rest) = rest.split_at(self.states);
+        let (parameters, rest) = rest.split_at(self.parameters);
+        let (integrals, times) = rest.split_at(self.integrals);
+        let ends = Ends {
+            initial,
+            terminal,
+            parameters,
+            integrals,
+            initial_time: times[0],
+            duration: times[1],
+        };
+        cost[0] = ocp.boundary(ends, scratch, rows);
     }
 }
 
@@ -151,116 +211,58 @@ impl WayPointShape {
             rows: way_point.rows.len(),
         }
     }
+}
 
-    pub fn inputs(&self) -> usize {
+impl Shape for WayPointShape {
+    fn inputs(&self) -> usize {
         self.states + self.parameters + 2
     }
 
-    pub fn outputs(&self) -> usize {
+    fn outputs(&self) -> usize {
         self.rows
     }
-}
 
-/// [`Part::Point`] of a problem.
-pub(super) struct AtPoint<'a, O> {
-    pub ocp: &'a O,
-    pub shape: PointShape,
-}
-
-impl<O: Ocp> Function for AtPoint<'_, O> {
-    type Scratch<S: Scalar> = O::Scratch<S>;
-
-    fn inputs(&self) -> usize {
-        self.shape.inputs()
-    }
-
-    fn outputs(&self) -> usize {
-        self.shape.outputs()
-    }
-
-    fn scratch<S: Scalar>(&self) -> O::Scratch<S> {
-        self.ocp.scratch()
-    }
-
-    fn evaluate<S: Scalar>(&self, v: &[S], scratch: &mut O::Scratch<S>, out: &mut [S]) {
-        let [rates, path, cost, integrands] = self.shape.split(out);
-        let point = self.shape.point(v);
-        cost[0] = self.ocp.continuous(point, scratch, rates, path);
-        if !integrands.is_empty() {
-            self.ocp.integrands(point, scratch, integrands);
-        }
-    }
-}
-
-/// [`Part::Ends`] of a problem.
-pub(super) struct AtEnds<'a, O> {
-    pub ocp: &'a O,
-    pub shape: EndsShape,
-}
-
-impl<O: Ocp> Function for AtEnds<'_, O> {
-    type Scratch<S: Scalar> = O::Scratch<S>;
-
-    fn inputs(&self) -> usize {
-        self.shape.inputs()
-    }
-
-    fn outputs(&self) -> usize {
-        self.shape.outputs()
-    }
-
-    fn scratch<S: Scalar>(&self) -> O::Scratch<S> {
-        self.ocp.scratch()
-    }
-
-    fn evaluate<S: Scalar>(&self, v: &[S], scratch: &mut O::Scratch<S>, out: &mut [S]) {
-        let (rows, cost) = out.split_at_mut(self.shape.rows);
-        let (initial, rest) = v.split_at(self.shape.states);
-        let (terminal, rest) = rest.split_at(self.shape.states);
-        let (parameters, rest) = rest.split_at(self.shape.parameters);
-        let (integrals, times) = rest.split_at(self.shape.integrals);
-        let ends = Ends {
-            initial,
-            terminal,
-            parameters,
-            integrals,
-            initial_time: times[0],
-            duration: times[1],
-        };
-        cost[0] = self.ocp.boundary(ends, scratch, rows);
-    }
-}
-
-/// [`Part::WayPoint`] of a problem.
-pub(super) struct AtWayPoint<'a, O> {
-    pub ocp: &'a O,
-    pub shape: WayPointShape,
-}
-
-impl<O: Ocp> Function for AtWayPoint<'_, O> {
-    type Scratch<S: Scalar> = O::Scratch<S>;
-
-    fn inputs(&self) -> usize {
-        self.shape.inputs()
-    }
-
-    fn outputs(&self) -> usize {
-        self.shape.outputs()
-    }
-
-    fn scratch<S: Scalar>(&self) -> O::Scratch<S> {
-        self.ocp.scratch()
-    }
-
-    fn evaluate<S: Scalar>(&self, v: &[S], scratch: &mut O::Scratch<S>, out: &mut [S]) {
-        let (x, rest) = v.split_at(self.shape.states);
-        let (parameters, times) = rest.split_at(self.shape.parameters);
+    fn evaluate<O: Ocp, S: Scalar>(
+        &self,
+        ocp: &O,
+        v: &[S],
+        scratch: &mut O::Scratch<S>,
+        out: &mut [S],
+    ) {
+        let (x, rest) = v.split_at(self.states);
+        let (parameters, times) = rest.split_at(self.parameters);
         let point = InteriorPoint {
-            way_point: self.shape.index,
+            way_point: self.index,
             x,
             parameters,
-            t: times[0] + times[1] * self.shape.fraction,
+            t: times[0] + times[1] * self.fraction,
         };
-        self.ocp.way_point(point, scratch, out);
+        ocp.way_point(point, scratch, out);
+    }
+}
+
+/// One function of a problem, for derivatives.
+pub(super) struct Of<'a, O, P> {
+    pub ocp: &'a O,
+    pub shape: P,
+}
+
+impl<O: Ocp, P: Shape> Function for Of<'_, O, P> {
+    type Scratch<S: Scalar> = O::Scratch<S>;
+
+    fn inputs(&self) -> usize {
+        self.shape.inputs()
+    }
+
+    fn outputs(&self) -> usize {
+        self.shape.outputs()
+    }
+
+    fn scratch<S: Scalar>(&self) -> O::Scratch<S> {
+        self.ocp.scratch()
+    }
+
+    fn evaluate<S: Scalar>(&self, v: &[S], scratch: &mut O::Scratch<S>, out: &mut [S]) {
+        self.shape.evaluate(self.ocp, v, scratch, out);
     }
 }

@@ -7,7 +7,7 @@ use super::way_point::{WayPointEvaluation, way_points};
 use super::{Layout, Patterns, Structure};
 use crate::collocation::Mesh;
 use crate::nlp::Undefined;
-use crate::ocp::{Derivatives, DynOcp, Formulation, Part, PointShape};
+use crate::ocp::{Derivatives, DynOcp, Formulation, Part, PointShape, Shape};
 
 /// Values and derivatives at the current iterate, computed when first asked for.
 pub(super) struct Evaluation<'a> {

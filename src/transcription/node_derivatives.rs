@@ -1,7 +1,9 @@
 //! Values and derivatives of one collocation point, by dual numbers or by the problem's own code.
 
 use crate::autodiff::Sparsity;
-use crate::ocp::{Derivatives, DynOcp, Formulation, Functions, Part, PointDerivatives, PointShape};
+use crate::ocp::{
+    Derivatives, DynOcp, Formulation, Functions, Part, PointDerivatives, PointShape, Shape,
+};
 
 /// Values, nonzeros of the Jacobian and of the weighted Hessian of a collocation point: what one
 /// thread needs, allocated once.

@@ -2,7 +2,7 @@
 
 use super::Patterns;
 use super::node_derivatives::NodeDerivatives;
-use crate::ocp::{DynOcp, Formulation, PointShape};
+use crate::ocp::{DynOcp, Formulation, PointShape, Shape};
 use crate::parallel;
 
 /// Least work, in points times inputs squared, that is worth waking threads for.

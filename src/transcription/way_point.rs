@@ -3,7 +3,7 @@
 use super::points::Shared;
 use super::{Layout, Patterns};
 use crate::autodiff::Sparsity;
-use crate::ocp::{Derivatives, DynOcp, Formulation, Part, WayPointShape};
+use crate::ocp::{Derivatives, DynOcp, Formulation, Part, Shape, WayPointShape};
 
 /// One way-point with its values and derivatives at the current iterate.
 pub(super) struct WayPointEvaluation<'a> {
