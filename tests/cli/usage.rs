@@ -109,11 +109,17 @@ fn a_library_without_its_linear_solvers_ends_nothing() {
         .status()
         .unwrap();
     assert!(made.success());
+    // Before those that are there, which Ipopt itself may be among.
+    let mut libraries = folder.path().as_os_str().to_owned();
+    if let Some(others) = std::env::var_os("LD_LIBRARY_PATH") {
+        libraries.push(":");
+        libraries.push(others);
+    }
     let run = |arguments: &[&str]| {
         let output = Command::new(env!("CARGO_BIN_EXE_ffsm-ipopt"))
             .args(arguments)
             .current_dir(folder.path())
-            .env("LD_LIBRARY_PATH", folder.path())
+            .env("LD_LIBRARY_PATH", &libraries)
             .output()
             .unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
