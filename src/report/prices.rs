@@ -1,6 +1,7 @@
 //! What holds J up, in words.
 
 use crate::digits::digits;
+use crate::problem::LimitId;
 use crate::system::ShadowPrice;
 
 /// How much wider the limits are thought to be.
@@ -18,12 +19,21 @@ pub(super) fn dearest(prices: &[ShadowPrice], cost: f64) -> Option<String> {
         let part = WIDER * found.price / cost;
         if part >= LEAST {
             named.push(format!(
-                "{}: J −{} %",
+                "{}{}: J −{} %",
                 found.name,
+                place(found.id.limit),
                 digits(100.0 * part, 2, 1)
             ));
         }
     }
     let all = named.join(", ");
     (!named.is_empty()).then(|| format!("{all}, were it a tenth wider"))
+}
+
+/// Where a limit holds that has the name of another along the path.
+fn place(limit: LimitId) -> &'static str {
+    match limit {
+        LimitId::FinalBaseAttitude => " at the end",
+        _ => "",
+    }
 }

@@ -25,8 +25,9 @@ pub struct ShadowPrice {
     pub price: f64,
 }
 
-/// Prices of the limits along the path of `problem`, the dearest first, by the multipliers of `iterate`
-/// at its solution `plan`; none without multipliers, and none of a limit that has no effect.
+/// Prices of the limits of `problem`, along the path, at way-points and at t_f, the dearest first, by the
+/// multipliers of `iterate` at its solution `plan`; none without multipliers, and none of a limit that
+/// has no effect.
 pub fn shadow_prices(
     problem: &Problem,
     plan: &Discretization,
@@ -44,58 +45,109 @@ fn prices<Sp: Space>(
     if !iterate.has_multipliers(layout.rows()) || iterate.x.len() != layout.variables() {
         return Vec::new();
     }
-    let last = layout.points;
-    // At both ends other bounds hold.
-    let state = |i: usize| {
-        (1..last)
-            .map(|k| of_bounds(iterate, layout.state(k, i)))
-            .sum()
-    };
-    let control = |j: usize| {
-        (0..last)
-            .map(|k| of_bounds(iterate, layout.control(k, j)))
-            .sum()
-    };
-    let path = |p: usize| {
-        (0..last)
-            .map(|k| iterate.multipliers[layout.path(k, p)].abs())
-            .sum()
-    };
-    let bounded = &system.bounded;
-    let states = bounded
-        .states
-        .iter()
-        .enumerate()
-        .map(|(i, row)| (row, state(i)));
-    let controls = bounded
-        .controls
-        .iter()
-        .enumerate()
-        .map(|(j, row)| (row, control(j)));
-    let rows = bounded
-        .path
-        .iter()
-        .enumerate()
-        .map(|(p, row)| (row, path(p)));
-    let mut found: Vec<ShadowPrice> = states
-        .chain(controls)
-        .chain(rows)
-        .filter_map(|(row, multipliers): (&Row, f64)| {
-            let price = multipliers * moved(row)?;
-            (price > 0.0).then(|| ShadowPrice {
+    let mut prices = Prices::default();
+    of_states(system, &layout, iterate, &mut prices);
+    of_controls(system, &layout, iterate, &mut prices);
+    of_rows(system, &layout, iterate, &mut prices);
+    prices.dearest_first()
+}
+
+/// What was found so far: one price a component of a limit, wherever it holds.
+#[derive(Default)]
+struct Prices(Vec<ShadowPrice>);
+
+impl Prices {
+    fn add(&mut self, row: &Row, multiplier: f64) {
+        let price = moved(row).map(|moved| multiplier * moved);
+        let Some(price) = price.filter(|&price| price > 0.0) else {
+            return;
+        };
+        let known =
+            (self.0.iter_mut()).find(|known| known.id == row.id && known.name == row.quantity.name);
+        match known {
+            Some(known) => known.price += price,
+            None => self.0.push(ShadowPrice {
                 id: row.id,
                 name: row.quantity.name.clone(),
                 price,
-            })
-        })
-        .collect();
-    found.sort_by(|a, b| b.price.total_cmp(&a.price));
-    found
+            }),
+        }
+    }
+
+    fn dearest_first(mut self) -> Vec<ShadowPrice> {
+        self.0.sort_by(|a, b| b.price.total_cmp(&a.price));
+        self.0
+    }
 }
 
-/// The sum of both bounds' multipliers of variable `v`.
-fn of_bounds(iterate: &Iterate, v: usize) -> f64 {
-    iterate.lower_multipliers[v] + iterate.upper_multipliers[v]
+/// Bounds of the states, from the first point on: the start is no limit.
+fn of_states<Sp: Space>(
+    system: &FreeFloating<Sp>,
+    layout: &Layout,
+    iterate: &Iterate,
+    prices: &mut Prices,
+) {
+    let bounded = &system.bounded;
+    for k in 1..=layout.points {
+        let way_point = layout.way_point_nodes().position(|node| node == k);
+        for (i, row) in bounded.states.iter().enumerate() {
+            let at_end = (k == layout.points).then(|| &bounded.terminal[i]);
+            let passed = way_point.map(|w| &system.way_points[w].states[i]);
+            // The one that holds is the tightest.
+            let [mut low, mut high] = [row; 2];
+            for other in at_end.into_iter().chain(passed) {
+                let bounds = other.quantity.bounds;
+                if bounds.lower >= low.quantity.bounds.lower {
+                    low = other;
+                }
+                if bounds.upper <= high.quantity.bounds.upper {
+                    high = other;
+                }
+            }
+            let v = layout.state(k, i);
+            prices.add(low, iterate.lower_multipliers[v]);
+            prices.add(high, iterate.upper_multipliers[v]);
+        }
+    }
+}
+
+fn of_controls<Sp: Space>(
+    system: &FreeFloating<Sp>,
+    layout: &Layout,
+    iterate: &Iterate,
+    prices: &mut Prices,
+) {
+    for (j, row) in system.bounded.controls.iter().enumerate() {
+        for k in 0..layout.points {
+            let v = layout.control(k, j);
+            prices.add(row, iterate.lower_multipliers[v]);
+            prices.add(row, iterate.upper_multipliers[v]);
+        }
+    }
+}
+
+/// Rows along the path, of way-points and of the end.
+fn of_rows<Sp: Space>(
+    system: &FreeFloating<Sp>,
+    layout: &Layout,
+    iterate: &Iterate,
+    prices: &mut Prices,
+) {
+    let bounded = &system.bounded;
+    let multiplier = |row: usize| iterate.multipliers[row].abs();
+    for (p, row) in bounded.path.iter().enumerate() {
+        for k in 0..layout.points {
+            prices.add(row, multiplier(layout.path(k, p)));
+        }
+    }
+    for (w, point) in system.way_points.iter().enumerate() {
+        for (r, row) in point.rows().iter().enumerate() {
+            prices.add(row, multiplier(layout.way_point(w, r)));
+        }
+    }
+    for (b, row) in bounded.boundary.iter().enumerate() {
+        prices.add(row, multiplier(layout.boundary(b)));
+    }
 }
 
 /// By how much the programme's bounds of `row` move outwards a unit of ε; `None` where wider means
