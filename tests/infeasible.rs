@@ -85,6 +85,21 @@ fn the_bound_that_was_found_does_work() {
     assert!(nodes.all(|eta| eta[0].abs().to_degrees() < 29.2 + 1e-3));
 }
 
+/// From the straight path it is not found; that is no proof that there is none.
+#[test]
+fn a_bound_just_above_the_smallest_is_not_called_infeasible() {
+    let problem = problems::published().edited(|problem| {
+        problem.limits.base_attitude = vec![Interval::symmetric(29.5_f64.to_radians())];
+        problem.limits.final_base_attitude = problem.limits.base_attitude.clone();
+        problem.mesh.tolerance = 1.0;
+        problem.mesh.bound_tolerance = 1e3;
+    });
+    let plan = plan(&problem.unwrap()).unwrap();
+    assert_ne!(plan.status, Status::Infeasible, "{:?}", plan.diagnosis);
+    let mut nodes = plan.trajectory.base_attitude.iter();
+    assert!(nodes.all(|eta| eta[0].abs().to_degrees() < 29.5 + 1e-3));
+}
+
 #[test]
 fn a_limit_on_the_joints_is_named_too() {
     // A radian in half a second at 0.9 rad/s: no base limit has a part in it.
@@ -147,7 +162,8 @@ fn a_limit_on_the_rotation_angle_is_named_in_degrees() {
         let gap = (limit.smallest_bound.upper - turned).abs();
         assert!(gap < 2e-3 * turned, "{limit:?}, expected {turned}");
     }
-    let start = "limits.base_attitude = 5.73° (base rotation angle) cannot hold; the smallest";
+    let start =
+        "limits.base_attitude = 5.73° (base rotation angle) was not found to hold; the smallest";
     assert!(
         diagnosis.summary.starts_with(start),
         "{}",

@@ -214,8 +214,8 @@ fn a_goal_inside_an_obstacle_is_named_with_a_clearance_that_works() {
     assert_eq!(limit.bound, Interval::new(0.0, f64::INFINITY));
     let works = limit.smallest_bound.lower;
     assert!((works + 0.368).abs() < 1e-3, "{works}");
-    let told = "limits.keep_out = a clearance of 0.0000 m (wall) cannot hold; the smallest bound \
-                that was found to work is a clearance of -0.368";
+    let told = "limits.keep_out = a clearance of 0.0000 m (wall) was not found to hold; the \
+                smallest bound that was found to work is a clearance of -0.368";
     assert!(diagnosis.summary.contains(told), "{}", diagnosis.summary);
     let again = ffsm_ipopt::planner::plan(&into_a_sphere(0.6 + 1.01 * works)).unwrap();
     let last = again.iterations.last().unwrap();

@@ -13,7 +13,7 @@ pub(super) fn cannot_hold(limits: &[LimitFinding], converged: bool) -> String {
             format!("cannot hold; no bound below {floor} can work, {works} was found to")
         }
         (None, true) => {
-            format!("cannot hold; the smallest bound that was found to work is {works}")
+            format!("was not found to hold; the smallest bound that was found to work is {works}")
         }
         (Some(floor), false) => format!(
             "cannot hold; no bound below {floor} can work, none that works is known, on a coarse \

@@ -182,6 +182,20 @@ impl<'a, O: Ocp> Elastic<'a, O> {
         }
     }
 
+    /// The same with its limits tighter by `amount` of each group's scale, so that the least amounts are
+    /// asked for below the limits as well: `amount` is within them.
+    pub fn tightened(mut self, amount: f64) -> Self {
+        let by = |group: usize| amount * self.groups[group].scale;
+        for bound in &mut self.path {
+            bound.bounds = narrowed(bound.bounds, by(bound.group));
+        }
+        let at_instants = self.way_points.iter_mut().flatten();
+        for bound in at_instants.chain(&mut self.boundary) {
+            bound.bounds = narrowed(bound.bounds, by(bound.group));
+        }
+        self
+    }
+
     /// The limits that give way.
     pub fn groups(&self) -> &[LimitGroup] {
         &self.groups
@@ -205,4 +219,10 @@ impl<'a, O: Ocp> Elastic<'a, O> {
             row("above", Interval::new(bounds.lower, f64::INFINITY)),
         ]
     }
+}
+
+/// `bounds` moved inwards, no further than to their middle.
+fn narrowed(bounds: Interval, by: f64) -> Interval {
+    let by = by.min(0.5 * (bounds.upper - bounds.lower));
+    Interval::new(bounds.lower + by, bounds.upper - by)
 }

@@ -2,15 +2,17 @@
 //!
 //! Derived in docs/algorithms.md#elastic-diagnosis.
 
+mod candidates;
 mod findings;
 mod search;
 
 pub(in crate::planner) use findings::findings;
 
 use crate::dynamics::space::Space;
+use crate::largest::largest;
 use crate::nlp::{Control, Deadline, Statistics};
 use crate::planner::words::cannot_hold;
-use crate::planner::{Diagnosis, Event, PlanError, floor};
+use crate::planner::{Diagnosis, Event, LimitFinding, PlanError, floor};
 use crate::problem::Problem;
 use crate::system::{ElasticLimit, FreeFloating};
 use crate::transcription::Discretization;
@@ -18,6 +20,11 @@ use search::{Found, Search};
 
 /// Iterations that a solve of its search may take.
 pub(super) const ITERATIONS: u32 = search::ITERATIONS[0];
+
+/// Part of a limit by which a motion exceeds it by little.
+const CLOSE: f64 = 0.25;
+/// Part of a proven bound by which the one that was found to work is far above it.
+const GAP: f64 = 0.1;
 
 /// What the diagnosis found.
 pub(super) struct Diagnosed {
@@ -55,18 +62,11 @@ pub(super) fn diagnose<Sp: Space>(
         deadline,
         statistics: Statistics::default(),
     };
-    let mut found = None;
-    if !base.is_empty() {
-        found = search.run(base)?;
-    }
-    if found.as_ref().is_none_or(Found::is_no_motion) {
-        let all = search.run(limits)?;
-        let is_better = |all: &Found| found.is_none() || !all.is_no_motion();
-        found = match all {
-            Some(all) if is_better(&all) => Some(all),
-            _ => found,
-        };
-    }
+    let found = least(&mut search, base, limits)?;
+    let found = match found {
+        Some(found) => Some(looked_closer(&mut search, found)?),
+        None => None,
+    };
     let statistics = search.statistics;
     let none = |interrupted| Diagnosed {
         diagnosis: None,
@@ -105,4 +105,79 @@ pub(super) fn diagnose<Sp: Space>(
         trajectory,
         ..none(false)
     })
+}
+
+/// The least excess of limits on the base alone, and of all `limits` where that leads to no motion.
+fn least<Sp: Space>(
+    search: &mut Search<'_, '_, Sp>,
+    base: Vec<ElasticLimit>,
+    limits: Vec<ElasticLimit>,
+) -> Result<Option<Found>, PlanError> {
+    let found = search.run(base)?;
+    if found.as_ref().is_some_and(|found| !found.is_no_motion()) {
+        return Ok(found);
+    }
+    let all = search.run(limits)?;
+    let is_better = |all: &Found| found.is_none() || !all.is_no_motion();
+    Ok(match all {
+        Some(all) if is_better(&all) => Some(all),
+        _ => found,
+    })
+}
+
+/// What a second search finds where `found` leaves one limit in doubt: the first may have ended at a local
+/// optimum beside motions within the limit.
+fn looked_closer<Sp: Space>(
+    search: &mut Search<'_, '_, Sp>,
+    found: Found,
+) -> Result<Found, PlanError> {
+    let (problem, system) = (search.problem, search.system);
+    let Some(trajectory) = found.trajectory.as_ref().filter(|_| found.converged) else {
+        return Ok(found);
+    };
+    let mut exceeded = findings(problem, system, &found.limits, trajectory);
+    floor::add(problem, system, &mut exceeded);
+    let Some(limit) = in_doubt(&exceeded, &found.limits) else {
+        return Ok(found);
+    };
+    let Some(mut second) = search.closer(vec![limit.clone()])? else {
+        return Ok(found);
+    };
+    second.starts.tried += found.starts.tried;
+    second.starts.feasible += found.starts.feasible;
+    let most = |exceeded: &[LimitFinding]| largest(exceeded.iter().map(|limit| limit.excess));
+    let better = second.trajectory.as_ref().is_some_and(|trajectory| {
+        let left = findings(problem, system, &second.limits, trajectory);
+        second.converged && most(&left) < most(&exceeded)
+    });
+    Ok(match better || second.interrupted {
+        true => second,
+        false => Found {
+            starts: second.starts,
+            ..found
+        },
+    })
+}
+
+/// The one of `limits` that `exceeded` are about, where a closer look may find less: where nothing proves
+/// that it has to be exceeded, and it is by little, or where it is by far more than is proven.
+fn in_doubt<'l>(exceeded: &[LimitFinding], limits: &'l [ElasticLimit]) -> Option<&'l ElasticLimit> {
+    let first = exceeded.first()?;
+    let limit = limits.iter().find(|limit| bounds(limit, first))?;
+    if !exceeded.iter().all(|found| bounds(limit, found)) {
+        return None;
+    }
+    let works = |found: &LimitFinding| found.smallest_bound.upper;
+    let size = |found: &LimitFinding| found.bound.lower.abs().max(found.bound.upper.abs());
+    let floors = exceeded.iter().filter_map(|found| found.floor);
+    let in_doubt = match floors.reduce(f64::max) {
+        Some(floor) => largest(exceeded.iter().map(works)) > floor * (1.0 + GAP),
+        None => (exceeded.iter()).all(|found| found.excess <= CLOSE * size(found)),
+    };
+    in_doubt.then_some(limit)
+}
+
+/// Whether `found` is about `limit`.
+fn bounds(limit: &ElasticLimit, found: &LimitFinding) -> bool {
+    limit.id.limit == found.limit.along_the_path() && limit.id.component == found.component
 }

@@ -4,7 +4,8 @@
 //! nothing is asked. So a result counts as found only where its refinement converged, and the control
 //! has a weight, which falls from one refined solution to the next.
 
-use super::findings::{HELD, findings};
+use super::candidates::{Candidate, Candidates, GROSS, Look};
+use super::findings::findings;
 use crate::collocation::Mesh;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, Statistics};
@@ -18,26 +19,19 @@ use crate::transcription::{Discretization, Patterns};
 
 /// Starts of one search: the failed trajectory, the straight path, and paths with loops and detours.
 const STARTS: usize = 8;
-/// What their random numbers begin with.
-const SEED: u64 = 1;
-/// Starts in a row without a better result, or from the first without any, after which the search ends.
-const PATIENCE: usize = 5;
+/// What their random numbers begin with in one search, and in a closer one.
+const SEEDS: [u64; 2] = [1, 2];
+/// How far below the limits a closer search asks for the least amounts, in units of the limits: there is
+/// nothing flat where limits would hold, and what starts end at can be compared.
+const CLOSER: f64 = 0.375;
 /// How many of the best starts are refined, and how many are tried where others do not converge.
 const REFINED: usize = 2;
 const TRIED: usize = 5;
 /// Iterations of one solve of a search, and of one in the refinement; fewer where the solver's limit
 /// is lower.
 pub(super) const ITERATIONS: [u32; 2] = [300, 150];
-/// Relative gain that counts as better.
-const GAIN: f64 = 5e-3;
-/// Relative difference below which two starts ended at the same excess.
-const SAME: f64 = 1e-6;
-/// Largest error (28) beyond which the solution on one mesh says nothing of a motion.
-const GROSS: f64 = 1.0;
 /// Part to which such an error falls on the next mesh at least where a motion comes of it.
 const FALLS: f64 = 0.5;
-/// Starts with such an error, before any other, after which a search is given up.
-const GROSS_STARTS: usize = 3;
 /// Weight of the problem's own cost, so that the least relaxation is not degenerate.
 const REGULARIZATION: f64 = 1e-5;
 /// Weights of the control in the searches, each as the part of the excess along the straight path
@@ -45,6 +39,8 @@ const REGULARIZATION: f64 = 1e-5;
 /// cut. The larger weight keeps motions smooth. The smaller finds those that need much control: several
 /// loops, between whose points a coarse mesh would hide what no motion can.
 const SEARCHED: [(f64, usize); 2] = [(1e-4, 1), (1e-6, 2)];
+/// The same of a closer search: what differs by little is told apart on a finer mesh alone.
+const SEARCHED_CLOSER: [(f64, usize); 1] = [(1e-6, 4)];
 /// Weights of the control in the refinement, one after another, from one that is at most so many times
 /// that of the search: what was found on a coarse mesh is hardly a motion yet.
 const FIRST_WEIGHT: f64 = 5.0;
@@ -88,93 +84,39 @@ pub(super) struct Search<'a, 'm, Sp: Space> {
     pub statistics: Statistics,
 }
 
-/// Where one start ended.
-struct Candidate {
-    /// The control's weight of its search.
-    part: f64,
-    /// The sum of the amounts by which limits are exceeded.
-    excess: f64,
-    /// The largest error (28).
-    error: f64,
-    /// The trajectory with the amounts among its static parameters, and its multipliers.
-    start: Start,
-}
-
-impl Candidate {
-    fn is_gross(&self) -> bool {
-        self.error.is_nan() || self.error >= GROSS
-    }
-
-    /// Motions before what is none, then the least excess.
-    fn order(&self, other: &Self) -> std::cmp::Ordering {
-        let gross = self.is_gross().cmp(&other.is_gross());
-        gross.then(self.excess.total_cmp(&other.excess))
-    }
-}
-
-/// What the starts came to so far.
-#[derive(Default)]
-struct Candidates {
-    /// Every start that was solved, the least excess first.
-    found: Vec<Candidate>,
-    starts: Starts,
-    /// Starts since the last gain.
-    stale: usize,
-}
-
-impl Candidates {
-    /// Adds what a start ended at, where it was solved; whether the search may end.
-    fn add<O: Ocp>(&mut self, part: f64, outcome: &Outcome, elastic: &Elastic<'_, O>) -> bool {
-        self.starts.tried += 1;
-        if !outcome.status.is_solved() {
-            return self.found.is_empty() && self.starts.tried == PATIENCE;
-        }
-        self.starts.feasible += 1;
-        let excess = excess(&outcome.trajectory, elastic);
-        let least = self
-            .found
-            .first()
-            .map_or(f64::INFINITY, |least| least.excess);
-        self.stale = match excess < least * (1.0 - GAIN) {
-            true => 0,
-            false => self.stale + 1,
-        };
-        let same = |other: &Candidate| (other.excess - excess).abs() <= SAME * excess;
-        if self.found.iter().any(same) {
-            return excess < HELD || self.stale == PATIENCE;
-        }
-        let place = self.found.partition_point(|other| other.excess <= excess);
-        let error = outcome.max_error();
-        let candidate = Candidate {
-            part,
-            excess,
-            error,
-            start: Start {
-                trajectory: outcome.trajectory.clone(),
-                iterate: Some(outcome.iterate.clone()),
-            },
-        };
-        self.found.insert(place, candidate);
-        let gross = self.found.iter().all(Candidate::is_gross);
-        if gross && self.found.len() >= GROSS_STARTS {
-            return true;
-        }
-        excess < HELD || self.stale == PATIENCE
-    }
-}
-
 impl<Sp: Space> Search<'_, '_, Sp> {
     /// The least excess of `limits` over all starts; `None` where there are no limits.
     ///
     /// Of the best starts, refined, the least excess whose refinement converged.
     pub fn run(&mut self, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
+        let look = Look {
+            seed: SEEDS[0],
+            tighter: 0.0,
+            searched: &SEARCHED,
+        };
+        self.look(look, limits)
+    }
+
+    /// The same from other starts, for the least values of what `limits` bound, be they within the limits
+    /// or not, down to a part of them.
+    pub fn closer(&mut self, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
+        let look = Look {
+            seed: SEEDS[1],
+            tighter: CLOSER,
+            searched: &SEARCHED_CLOSER,
+        };
+        self.look(look, limits)
+    }
+
+    fn look(&mut self, look: Look, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
         if limits.is_empty() {
             return Ok(None);
         }
         let groups: Vec<LimitGroup> = limits.iter().map(|limit| limit.group.clone()).collect();
-        let unit = self.control_unit(&limits)?;
+        let unit = self.control_unit(look, &limits)?;
         let elastic = |part: f64| {
             Elastic::new(self.system, groups.clone(), REGULARIZATION)
+                .tightened(look.tighter)
                 .with_control_weight(part * unit)
         };
         let patterns = Patterns::detect(&elastic(1.0));
@@ -186,11 +128,11 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             interrupted: false,
         };
         let mut candidates = Vec::new();
-        for (part, cuts) in SEARCHED {
+        for (part, cuts) in look.searched.iter().copied() {
             let searched = elastic(part);
-            let feasible = self.try_starts((part, cuts), &searched, &patterns, &mut found)?;
+            let feasible = self.try_starts(look, (part, cuts), &searched, &patterns, &mut found)?;
             candidates.extend(feasible);
-            let held = candidates.iter().any(|candidate| candidate.excess < HELD);
+            let held = (candidates.iter()).any(|candidate| look.ends_at(candidate.excess));
             if held || found.interrupted || self.deadline.has_passed() {
                 break;
             }
@@ -205,10 +147,11 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             }
             let motion = || strip(&candidate.start.trajectory, &elastic(candidate.part));
             found.trajectory.get_or_insert_with(motion);
-            let converged =
-                self.descend(&candidate, &elastic, &patterns, &mut found, &mut least)?;
+            let converged = self.descend(
+                look, &candidate, &elastic, &patterns, &mut found, &mut least,
+            )?;
             refined += usize::from(converged);
-            if least < HELD || refined == REFINED {
+            if look.is_held(least) || refined == REFINED {
                 break;
             }
         }
@@ -219,6 +162,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
     /// converges; `found` and its excess `least` become what is better. Whether any converged.
     fn descend<'e>(
         &mut self,
+        look: Look,
         candidate: &Candidate,
         elastic: &dyn Fn(f64) -> Elastic<'e, FreeFloating<Sp>>,
         patterns: &Patterns,
@@ -246,7 +190,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
                 found.converged = true;
                 found.trajectory = Some(strip(&outcome.trajectory, &elastic));
             }
-            let enough = excess < HELD || excess > before * (1.0 - LOWER_WEIGHT_GAIN);
+            let enough = look.is_held(excess) || excess > before * (1.0 - LOWER_WEIGHT_GAIN);
             before = excess;
             if enough {
                 break;
@@ -263,6 +207,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
     /// in so many, from one start after another.
     fn try_starts(
         &mut self,
+        look: Look,
         (part, cuts): (f64, usize),
         elastic: &Elastic<'_, FreeFloating<Sp>>,
         patterns: &Patterns,
@@ -272,12 +217,12 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         let mut settings = self.settings(1);
         settings.segments *= cuts;
         let mesh = settings.first_mesh()?.through(&fractions)?;
-        let starts = system::Starts::new(self.problem, self.system, SEED);
-        let mut candidates = Candidates::default();
+        let starts = system::Starts::new(self.problem, self.system, look.seed);
+        let mut candidates = Candidates::new(look);
         for start in 0..STARTS {
             let event = Event::Diagnosing {
                 start: found.starts.tried + start + 1,
-                of: STARTS * SEARCHED.len(),
+                of: STARTS * look.searched.len(),
             };
             if (self.monitor)(&event) == Control::Stop {
                 found.interrupted = true;
@@ -289,7 +234,8 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             };
             let outcome = self.solve(elastic, patterns, 1, &from)?;
             found.interrupted = outcome.cut_short == Some(CutShort::Interrupted);
-            let enough = candidates.add(part, &outcome, elastic);
+            let excess = excess(&outcome.trajectory, elastic);
+            let enough = candidates.add(part, &outcome, excess);
             if enough || found.interrupted || self.deadline.has_passed() {
                 break;
             }
@@ -354,7 +300,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
 
     /// Weight of ∫‖u‖² at which the least control between start and goal costs as much as the straight
     /// path exceeds `limits`. A radian or metre more a joint, since the way round is longer.
-    fn control_unit(&self, limits: &[ElasticLimit]) -> Result<f64, PlanError> {
+    fn control_unit(&self, look: Look, limits: &[ElasticLimit]) -> Result<f64, PlanError> {
         let task = &self.problem.task;
         let duration = task.duration.center();
         let ends = task.initial_joints.iter().zip(&task.final_joints);
@@ -379,7 +325,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             .iter()
             .map(|found| found.excess / size(found))
             .sum();
-        Ok(excess.max(LEAST_EXCESS) / effort)
+        Ok((excess.max(LEAST_EXCESS) + look.tighter) / effort)
     }
 
     /// The failed trajectory first, then the straight path and others.
