@@ -4,8 +4,6 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::{Outcome, interrupt, terminal};
 use crate::config::Dispersion;
-use crate::nlp::Control;
-use crate::nlp::ipopt::interrupt as stop;
 use crate::report::{DispersionReport, FileSet, OutputFolder, in_doubt};
 use crate::solution::Saved;
 use crate::study::dispersion::{DispersionError, MOST_SAMPLES, Replays};
@@ -72,13 +70,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     }
     interrupt::listen();
 
-    let progress = Progress::start(&format!("{}: replays", problem.name), arguments.quiet);
+    let mut progress = Progress::start(&format!("{}: replays", problem.name), arguments.quiet);
     let replayed =
         Replays::new(problem, &saved.plan, &dispersion, arguments.seed).and_then(|replays| {
-            let samples = replays.run(arguments.samples, &mut |_| match stop::requested() {
-                true => Control::Stop,
-                false => Control::Continue,
-            })?;
+            let all = arguments.samples;
+            let samples = replays.run(all, &mut |done| progress.show_share(done, all))?;
             Ok((replays, samples))
         });
     progress.finish();

@@ -23,6 +23,8 @@ pub(super) struct Progress {
     mesh: String,
     /// The start of the diagnosis that the next mesh belongs to.
     start: Option<String>,
+    /// How many tenths of what is counted have been said.
+    tenth: u64,
 }
 
 impl Progress {
@@ -48,6 +50,7 @@ impl Progress {
             title: title.into(),
             mesh: String::new(),
             start: None,
+            tenth: 0,
         }
     }
 
@@ -115,6 +118,23 @@ impl Progress {
         };
         if !self.bar.is_hidden() {
             self.bar.set_message(format!("{}: {message}", self.title));
+        }
+        match interrupt::requested() {
+            true => Control::Stop,
+            false => Control::Continue,
+        }
+    }
+
+    /// Shows that `done` of `all` are done; where there is no terminal, a line each tenth.
+    pub(super) fn show_share(&mut self, done: u64, all: u64) -> Control {
+        let tenth = (done as f64 / all as f64 * 10.0) as u64;
+        if tenth > self.tenth {
+            self.tenth = tenth;
+            self.log_end(&format!("{done} of {all}"));
+        }
+        if !self.bar.is_hidden() {
+            let message = format!("{}: {done} of {all}", self.title);
+            self.bar.set_message(message);
         }
         match interrupt::requested() {
             true => Control::Stop,
