@@ -9,8 +9,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 top=$PWD
 (cd python && "$python" -m mypy --cache-dir "$top/$home/mypy" tests/typed.py)
 cd "$home" # where no other ffsm_ipopt is
-for mode in "" "-X dev"; do
-  # shellcheck disable=SC2086 # an option and its value
-  "$python" $mode -m pytest --config-file "$top/python/pyproject.toml" --rootdir "$top/python" \
-    "$top/python/tests" "$@"
-done
+pytest=(-m pytest --config-file "$top/python/pyproject.toml" --rootdir "$top/python" "$top/python/tests" "$@")
+# Both at the same time, each on one core for most of it; the second is printed when it is done.
+"$python" -X dev "${pytest[@]}" >dev-mode.log 2>&1 &
+trap 'kill $! 2>/dev/null || true' EXIT
+"$python" "${pytest[@]}"
+passed=0
+wait $! || passed=$?
+cat dev-mode.log
+exit $passed
