@@ -4,8 +4,6 @@ use super::findings::HELD;
 use crate::planner::Starts;
 use crate::refine::{Outcome, Start};
 
-/// Starts in a row without a better result, or from the first without any, after which the search ends.
-const PATIENCE: usize = 5;
 /// Relative gain that counts as better.
 const GAIN: f64 = 5e-3;
 /// Relative difference below which two starts ended at the same excess.
@@ -24,6 +22,13 @@ pub(super) struct Look {
     pub tighter: f64,
     /// Weights of the control, and into how many each segment of the first mesh is cut.
     pub searched: &'static [(f64, usize)],
+    /// How many times the weight of the search the first of the refinement is at most: what was found on
+    /// a coarse mesh is hardly a motion yet.
+    pub first_weight: f64,
+    /// Starts at most.
+    pub starts: usize,
+    /// Starts in a row without a better result, or from the first without any, after which it ends.
+    pub patience: usize,
 }
 
 impl Look {
@@ -88,7 +93,7 @@ impl Candidates {
     pub fn add(&mut self, part: f64, outcome: &Outcome, excess: f64) -> bool {
         self.starts.tried += 1;
         if !outcome.status.is_solved() {
-            return self.found.is_empty() && self.starts.tried == PATIENCE;
+            return self.found.is_empty() && self.starts.tried == self.look.patience;
         }
         self.starts.feasible += 1;
         let least = self
@@ -101,7 +106,7 @@ impl Candidates {
         };
         let same = |other: &Candidate| (other.excess - excess).abs() <= SAME * excess;
         if self.found.iter().any(same) {
-            return self.look.ends_at(excess) || self.stale == PATIENCE;
+            return self.look.ends_at(excess) || self.stale == self.look.patience;
         }
         let place = self.found.partition_point(|other| other.excess <= excess);
         let error = outcome.max_error();
@@ -119,6 +124,6 @@ impl Candidates {
         if gross && self.found.len() >= GROSS_STARTS {
             return true;
         }
-        self.look.ends_at(excess) || self.stale == PATIENCE
+        self.look.ends_at(excess) || self.stale == self.look.patience
     }
 }

@@ -17,13 +17,6 @@ use crate::refine::{self, CutShort, Law, Method, Outcome, Refinement, Start};
 use crate::system::{self, ElasticLimit, FreeFloating, JointPath, along};
 use crate::transcription::{Discretization, Patterns};
 
-/// Starts of one search: the failed trajectory, the straight path, and paths with loops and detours.
-const STARTS: usize = 8;
-/// What their random numbers begin with in one search, and in a closer one.
-const SEEDS: [u64; 2] = [1, 2];
-/// How far below the limits a closer search asks for the least amounts, in units of the limits: there is
-/// nothing flat where limits would hold, and what starts end at can be compared.
-const CLOSER: f64 = 0.375;
 /// How many of the best starts are refined, and how many are tried where others do not converge.
 const REFINED: usize = 2;
 const TRIED: usize = 5;
@@ -34,16 +27,29 @@ pub(super) const ITERATIONS: [u32; 2] = [300, 150];
 const FALLS: f64 = 0.5;
 /// Weight of the problem's own cost, so that the least relaxation is not degenerate.
 const REGULARIZATION: f64 = 1e-5;
-/// Weights of the control in the searches, each as the part of the excess along the straight path
-/// that the least control from start to goal costs, and into how many each segment of the first mesh is
-/// cut. The larger weight keeps motions smooth. The smaller finds those that need much control: several
-/// loops, between whose points a coarse mesh would hide what no motion can.
-const SEARCHED: [(f64, usize); 2] = [(1e-4, 1), (1e-6, 2)];
-/// The same of a closer search: what differs by little is told apart on a finer mesh alone.
-const SEARCHED_CLOSER: [(f64, usize); 1] = [(1e-6, 4)];
-/// Weights of the control in the refinement, one after another, from one that is at most so many times
-/// that of the search: what was found on a coarse mesh is hardly a motion yet.
-const FIRST_WEIGHT: f64 = 5.0;
+/// The search that is always made. Starts: the failed trajectory, the straight path, and paths with loops
+/// and detours. Weights of the control are parts of the excess along the straight path that the least
+/// control from start to goal costs. The larger weight keeps motions smooth. The smaller finds those that
+/// need much control: several loops, between whose points a coarse mesh would hide what no motion can.
+const FIRST_LOOK: Look = Look {
+    seed: 1,
+    starts: 8,
+    patience: 5,
+    tighter: 0.0,
+    searched: &[(1e-4, 1), (1e-6, 2)],
+    first_weight: 5.0,
+};
+/// A closer one. Limits are tighter by a part of themselves, so that nothing is flat where they would hold,
+/// and what starts end at can be compared. What differs by little is told apart on a finer mesh alone.
+const CLOSER_LOOK: Look = Look {
+    seed: 2,
+    starts: 10,
+    patience: 6,
+    tighter: 0.375,
+    searched: &[(1e-6, 4)],
+    first_weight: 1.0,
+};
+/// Weights of the control in the refinement, one after another.
 const WEIGHTS: [f64; 5] = [1e-4, 3e-5, 1e-5, 3e-6, 1e-6];
 /// Relative gain below which a still lower weight is not tried.
 const LOWER_WEIGHT_GAIN: f64 = 0.02;
@@ -89,23 +95,13 @@ impl<Sp: Space> Search<'_, '_, Sp> {
     ///
     /// Of the best starts, refined, the least excess whose refinement converged.
     pub fn run(&mut self, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
-        let look = Look {
-            seed: SEEDS[0],
-            tighter: 0.0,
-            searched: &SEARCHED,
-        };
-        self.look(look, limits)
+        self.look(FIRST_LOOK, limits)
     }
 
-    /// The same from other starts, for the least values of what `limits` bound, be they within the limits
-    /// or not, down to a part of them.
+    /// The same from more starts and others, for the least values of what `limits` bound, be they within the
+    /// limits or not, down to a part of them.
     pub fn closer(&mut self, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
-        let look = Look {
-            seed: SEEDS[1],
-            tighter: CLOSER,
-            searched: &SEARCHED_CLOSER,
-        };
-        self.look(look, limits)
+        self.look(CLOSER_LOOK, limits)
     }
 
     fn look(&mut self, look: Look, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
@@ -173,7 +169,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         let mut before = f64::INFINITY;
         for part in WEIGHTS
             .into_iter()
-            .filter(|part| *part <= FIRST_WEIGHT * candidate.part)
+            .filter(|part| *part <= look.first_weight * candidate.part)
         {
             if found.interrupted || self.deadline.has_passed() {
                 break;
@@ -219,10 +215,10 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         let mesh = settings.first_mesh()?.through(&fractions)?;
         let starts = system::Starts::new(self.problem, self.system, look.seed);
         let mut candidates = Candidates::new(look);
-        for start in 0..STARTS {
+        for start in 0..look.starts {
             let event = Event::Diagnosing {
                 start: found.starts.tried + start + 1,
-                of: STARTS * look.searched.len(),
+                of: look.starts * look.searched.len(),
             };
             if (self.monitor)(&event) == Control::Stop {
                 found.interrupted = true;
