@@ -168,7 +168,11 @@ fn in_doubt<'l>(exceeded: &[LimitFinding], limits: &'l [ElasticLimit]) -> Option
         return None;
     }
     let works = |found: &LimitFinding| found.smallest_bound.upper;
-    let size = |found: &LimitFinding| found.bound.lower.abs().max(found.bound.upper.abs());
+    // Of a limit on one side alone, as on the distance to what is kept out, its one bound.
+    let size = |found: &LimitFinding| {
+        let bounds = [found.bound.lower, found.bound.upper].map(f64::abs);
+        largest(bounds.into_iter().filter(|bound| bound.is_finite()))
+    };
     let floors = exceeded.iter().filter_map(|found| found.floor);
     let in_doubt = match floors.reduce(f64::max) {
         Some(floor) => largest(exceeded.iter().map(works)) > floor * (1.0 + GAP),
