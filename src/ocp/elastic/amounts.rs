@@ -124,5 +124,19 @@ mod tests {
         let needed = elastic.needed(points.into_iter(), std::iter::empty(), ends);
         // The state is bounded at t_f as well: 2 beyond; 2x exceeds 3 by 1 at −2.
         assert_eq!(needed, [4.0, 0.0, 0.25]);
+
+        // Tighter by a tenth of each scale, so that as much more is needed.
+        let tighter = elastic.tightened(0.1);
+        let at_rest = Ends {
+            terminal: &[0.0],
+            ..ends
+        };
+        let needed = tighter.needed(
+            [point(&[1.0], &[2.0])].into_iter(),
+            std::iter::empty(),
+            at_rest,
+        );
+        assert!((needed[0] - 0.1).abs() < 1e-12 && (needed[1] - 0.1).abs() < 1e-12);
+        assert_eq!(needed[2], 0.0);
     }
 }

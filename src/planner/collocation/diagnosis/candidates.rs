@@ -8,10 +8,10 @@ use crate::refine::{Outcome, Start};
 const GAIN: f64 = 5e-3;
 /// Relative difference below which two starts ended at the same excess.
 const SAME: f64 = 1e-6;
-/// Starts with such an error, before any other, after which a search is given up.
-const GROSS_STARTS: usize = 3;
 /// Largest error (28) beyond which the solution on one mesh says nothing of a motion.
 pub(super) const GROSS: f64 = 1.0;
+/// Starts with such an error, before any other, after which a search is given up.
+const GROSS_STARTS: usize = 3;
 
 /// From where a search looks, and how closely.
 #[derive(Clone, Copy)]

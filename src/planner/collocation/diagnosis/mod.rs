@@ -61,6 +61,7 @@ pub(super) fn diagnose<Sp: Space>(
         monitor,
         deadline,
         statistics: Statistics::default(),
+        tried: 0,
     };
     let found = least(&mut search, base, limits)?;
     let found = match found {
@@ -135,6 +136,9 @@ fn looked_closer<Sp: Space>(
     let Some(trajectory) = found.trajectory.as_ref().filter(|_| found.converged) else {
         return Ok(found);
     };
+    if search.deadline.has_passed() {
+        return Ok(found);
+    }
     let mut exceeded = findings(problem, system, &found.limits, trajectory);
     floor::add(problem, system, &mut exceeded);
     let Some(limit) = in_doubt(&exceeded, &found.limits) else {

@@ -23,7 +23,7 @@ const TRIED: usize = 5;
 /// Iterations of one solve of a search, and of one in the refinement; fewer where the solver's limit
 /// is lower.
 pub(super) const ITERATIONS: [u32; 2] = [300, 150];
-/// Part to which such an error falls on the next mesh at least where a motion comes of it.
+/// Part to which a gross error falls on the next mesh at least where a motion comes of it.
 const FALLS: f64 = 0.5;
 /// Weight of the problem's own cost, so that the least relaxation is not degenerate.
 const REGULARIZATION: f64 = 1e-5;
@@ -88,6 +88,8 @@ pub(super) struct Search<'a, 'm, Sp: Space> {
     pub monitor: &'m mut dyn FnMut(&Event<'_>) -> Control,
     pub deadline: Deadline,
     pub statistics: Statistics,
+    /// Starts so far, of all searches.
+    pub tried: usize,
 }
 
 impl<Sp: Space> Search<'_, '_, Sp> {
@@ -215,10 +217,11 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         let mesh = settings.first_mesh()?.through(&fractions)?;
         let starts = system::Starts::new(self.problem, self.system, look.seed);
         let mut candidates = Candidates::new(look);
+        let earlier = self.tried - found.starts.tried;
         for start in 0..look.starts {
             let event = Event::Diagnosing {
-                start: found.starts.tried + start + 1,
-                of: look.starts * look.searched.len(),
+                start: self.tried + start + 1,
+                of: earlier + look.starts * look.searched.len(),
             };
             if (self.monitor)(&event) == Control::Stop {
                 found.interrupted = true;
@@ -236,6 +239,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
                 break;
             }
         }
+        self.tried += candidates.starts.tried;
         found.starts.tried += candidates.starts.tried;
         found.starts.feasible += candidates.starts.feasible;
         Ok(candidates.found)
