@@ -10,6 +10,7 @@ use crate::nlp::{
 };
 use crate::ocp::DynOcp;
 use crate::transcription::{Discretization, Layout, Structure, Transcription};
+use std::time::Duration;
 
 /// Barrier parameter that a refined mesh starts with, as a part of the solver's tolerance: so far
 /// below it that the first barrier problem is the last, and costs are as exact as from a cold start.
@@ -26,9 +27,14 @@ const STRUCTURE_BARRIER: f64 = 1e-6;
 /// Iterations after which a mesh with a structure is given up: with the right one it takes fewer.
 const STRUCTURE_ITERATIONS: u32 = 200;
 
-/// Iterations after which a warm start is given up for a cold one: far from the solution a small
-/// barrier makes steps short, hundreds in a row.
+/// Iterations after which a warm start is given up for one with a wider barrier: far from the solution
+/// a small barrier makes steps short, hundreds in a row.
 const WARM_ITERATIONS: u32 = 100;
+
+/// The barrier parameter of that one, and its iterations. A cold start's barrier is so wide that it
+/// leaves the basin of the mesh before, where there are many optima.
+const WIDER_BARRIER: f64 = 1e-4;
+const WIDER_ITERATIONS: u32 = 300;
 
 /// Ipopt's own barrier parameter at a cold start.
 const LARGEST_BARRIER: f64 = 0.1;
@@ -167,39 +173,48 @@ impl MeshSolver<'_> {
         (settings, iterate)
     }
 
-    /// Solves `program` in `units`, or in its own, from `iterate`, and should a warm start fail, once more without
-    /// multipliers.
+    /// Solves `program` in `units`, or in its own, from `iterate`; should a warm start fail, again with a
+    /// wider barrier, and then without multipliers.
     fn solve(
         &self,
         program: &mut Transcription<'_>,
         units: Option<&Units>,
-        mut settings: nlp::Settings,
+        settings: nlp::Settings,
         iterate: Iterate,
         statistics: &mut Statistics,
         monitor: &mut dyn FnMut(&Progress) -> Control,
     ) -> Result<Solved, ipopt::IpoptError> {
-        let allowed = settings.max_iterations;
+        let mut spent = Duration::ZERO;
+        let mut nlp_iterations = 0;
         // Where a structure fails, the law has another mesh.
-        let again = program.structure().is_empty();
-        if again && settings.warm_start.is_some() {
-            settings.max_iterations = allowed.min(WARM_ITERATIONS);
-        }
-        let mut solution = in_units(program, units, &settings, &iterate, monitor)?;
-        statistics.add(&solution.statistics);
-        let mut nlp_iterations = solution.statistics.iterations;
-        let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
-        let gave_up = !solution.status.is_solved() && !stopped;
-        if gave_up && again && settings.warm_start.take().is_some() {
+        let attempts = attempts(&settings, program.structure().is_empty());
+        let mut attempts = attempts.into_iter().flatten();
+        let mut attempt = attempts.next();
+        let solution = loop {
+            let this = attempt.take().expect("there is a first and a next one");
             // Multipliers may mislead; the same trajectory without them has every chance of
             // a cold start.
-            let spent = solution.statistics.total;
-            settings.time_limit = settings.time_limit.map(|limit| limit.saturating_sub(spent));
-            settings.max_iterations = allowed;
-            let primal = Iterate::primal(iterate.x);
-            solution = in_units(program, units, &settings, &primal, monitor)?;
+            let primal = this
+                .barrier
+                .is_none()
+                .then(|| Iterate::primal(iterate.x.clone()));
+            let from = primal.as_ref().unwrap_or(&iterate);
+            let settings = nlp::Settings {
+                warm_start: this.barrier,
+                max_iterations: this.iterations,
+                time_limit: settings.time_limit.map(|limit| limit.saturating_sub(spent)),
+                ..settings.clone()
+            };
+            let solution = in_units(program, units, &settings, from, monitor)?;
             statistics.add(&solution.statistics);
+            spent += solution.statistics.total;
             nlp_iterations += solution.statistics.iterations;
-        }
+            let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
+            attempt = attempts.next();
+            if solution.status.is_solved() || stopped || attempt.is_none() {
+                break solution;
+            }
+        };
         Ok(Solved {
             trajectory: program.unpack(&solution.iterate.x),
             layout: program.layout().clone(),
@@ -209,6 +224,32 @@ impl MeshSolver<'_> {
             objective: solution.objective,
             nlp_iterations,
         })
+    }
+}
+
+/// One try to solve a programme.
+struct Attempt {
+    /// The barrier parameter of a warm start; a cold one without.
+    barrier: Option<f64>,
+    iterations: u32,
+}
+
+/// What is tried in turn with `settings`, once alone where it shall not be tried `again`. Who allows few
+/// iterations has another start at hand.
+fn attempts(settings: &nlp::Settings, again: bool) -> [Option<Attempt>; 3] {
+    let allowed = settings.max_iterations;
+    let attempt = |barrier, most: u32| Attempt {
+        barrier,
+        iterations: allowed.min(most),
+    };
+    match settings.warm_start {
+        Some(barrier) if again => [
+            Some(attempt(Some(barrier), WARM_ITERATIONS)),
+            (barrier < WIDER_BARRIER && allowed > WARM_ITERATIONS)
+                .then(|| attempt(Some(WIDER_BARRIER), WIDER_ITERATIONS)),
+            Some(attempt(None, u32::MAX)),
+        ],
+        barrier => [Some(attempt(barrier, u32::MAX)), None, None],
     }
 }
 
