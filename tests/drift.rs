@@ -8,6 +8,7 @@ use ffsm_ipopt::dynamics::attitude::SpatialAttitude;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::{Plan, Status, plan};
 use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::system::{straight_line, straight_motion};
 use ffsm_ipopt::verify::verify;
 
 #[test]
@@ -172,4 +173,48 @@ fn a_base_that_turns_over_by_roll_pitch_yaw() {
         .unwrap();
     let plan = plan(&problem).unwrap();
     assert!(plan.objective > 2.0, "J = {}", plan.objective);
+}
+
+/// A base that turns over hundreds of times is no reason to fail, and its motion along the straight joint
+/// path is still right.
+#[test]
+fn a_base_that_tumbles_for_long_has_a_start() {
+    for (attitude, duration) in [
+        (SpatialAttitude::Quaternion, 1e4),
+        (SpatialAttitude::Quaternion, 1e7),
+        (SpatialAttitude::Mrp, 1e3),
+        (SpatialAttitude::Mrp, 1e5),
+        (SpatialAttitude::RollPitchYaw, 1e5),
+    ] {
+        let problem = tumbling(attitude).edited(|problem| {
+            problem.task.duration = Interval::fixed(duration);
+            problem.mesh.max_iterations = Some(1);
+            problem.solver.max_iterations = 3;
+        });
+        let problem = problem.unwrap();
+        let plan = plan(&problem).unwrap();
+        assert_ne!(plan.status, Status::Solved, "{attitude:?}, {duration} s");
+        let straight = straight_line(&problem);
+        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        assert!(finite(&straight.base_attitude) && finite(&straight.base_displacement));
+    }
+    let problem = tumbling(SpatialAttitude::Quaternion);
+    let end = straight_motion(&problem, 1e4, 1000).base_attitude[1000].clone();
+    let fine = straight_motion(&problem, 1e4, 100_000).base_attitude[100_000].clone();
+    let [end, fine] = [end, fine].map(|eta| SpatialAttitude::Quaternion.to_quaternion(&eta));
+    let apart = end.angle_to(&fine);
+    assert!(apart < 1e-3, "{apart} rad apart");
+    // The same whatever describes it, though the base passes through the singularities of both.
+    let [by_quaternion, by_rodrigues, by_angles] = [
+        SpatialAttitude::Quaternion,
+        SpatialAttitude::Mrp,
+        SpatialAttitude::RollPitchYaw,
+    ]
+    .map(|attitude| {
+        let motion = straight_motion(&tumbling(attitude), 1e3, 100);
+        assert_eq!(motion.attitude, Some(attitude));
+        attitude.to_quaternion(&motion.base_attitude[100])
+    });
+    assert!(by_quaternion.angle_to(&by_rodrigues) < 1e-9);
+    assert!(by_quaternion.angle_to(&by_angles) < 1e-9);
 }

@@ -96,6 +96,11 @@ impl<Sp: Space> FreeFloating<Sp> {
         &self.plant.start_attitude
     }
 
+    /// How fast the base turns at t₀ with the momentum it has and its joints at rest, rad/s.
+    pub fn tumble_rate(&self) -> f64 {
+        self.plant.tumble_rate
+    }
+
     /// The base's angular velocity for the joint rates and the system's momentum, into `data`;
     /// needs [`Tree::momentum`].
     pub fn base_rate<S: Scalar>(&self, eta: &[S], dtheta: &[S], data: &mut Data<Sp, S>) {

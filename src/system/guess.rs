@@ -2,6 +2,7 @@
 
 use super::free_floating::FreeFloating;
 use super::quintic::quintic;
+use super::tumble;
 use crate::collocation::Mesh;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
@@ -267,25 +268,29 @@ fn follow<Sp: Space>(problem: &FreeFloating<Sp>, duration: f64, path: &JointPath
     let mut data = Data::<Sp, f64>::new(tree);
     let (mut q, mut dq, mut ddq) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let mut rates = vec![0.0; parameters.count()];
-    let mut attitude = vec![problem.start_attitude().to_vec()];
-    for k in 0..STEPS {
-        path.at_fraction((k as f64 + 0.5) / STEPS as f64, &mut q, &mut dq, &mut ddq);
+    let within = tumble::steps(problem, duration / STEPS as f64);
+    let all = within * STEPS;
+    let mut eta = problem.start_attitude().to_vec();
+    let mut attitude = vec![eta.clone()];
+    for k in 0..all {
+        path.at_fraction((k as f64 + 0.5) / all as f64, &mut q, &mut dq, &mut ddq);
         tree.kinematics(&q, &mut data);
         tree.momentum(&mut data);
         dq.iter_mut().for_each(|rate| *rate /= duration);
-        let eta = &attitude[k];
         let mut turn = |at: &[f64]| -> Vec<f64> {
             problem.base_rate(at, &dq, &mut data);
             parameters.rates(at, &data.base_rate, &mut rates);
-            rates
-                .iter()
-                .map(|rate| rate * duration / STEPS as f64)
-                .collect()
+            let turns = rates.iter().map(|rate| rate * duration / all as f64);
+            turns.collect()
         };
-        let half = turn(eta);
+        let half = turn(&eta);
         let middle: Vec<f64> = eta.iter().zip(&half).map(|(a, r)| a + 0.5 * r).collect();
-        let next = eta.iter().zip(turn(&middle)).map(|(a, r)| a + r).collect();
-        attitude.push(next);
+        let mut next: Vec<f64> = eta.iter().zip(turn(&middle)).map(|(a, r)| a + r).collect();
+        tumble::settle::<Sp>(parameters, &eta, &mut next);
+        eta = next;
+        if (k + 1) % within == 0 {
+            attitude.push(eta.clone());
+        }
     }
     attitude
 }

@@ -10,6 +10,7 @@
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
 //! | `starts/` | paths unlike each other to begin a search with |
+//! | `tumble` | a base that turns with its momentum for long |
 //! | `motion`, `accelerations`, `metrics` | a motion over time, its figures, the base angle |
 //! | `peaks` | the largest values that the cost is about |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |
@@ -45,6 +46,7 @@ mod starts;
 mod straight_line;
 mod torques;
 mod trajectory;
+mod tumble;
 
 pub use accelerations::joint_accelerations;
 pub use cost::{CostTerm, CostTerms, JointEffort, Side};
@@ -75,3 +77,4 @@ pub(crate) use quintic::quintic;
 pub(crate) use rows::{ROTATION_ANGLE, of_joint};
 pub(crate) use starts::Starts;
 pub(crate) use trajectory::trajectory;
+pub(crate) use tumble::{by_quaternion, describe, settle, steps as tumbling_steps};

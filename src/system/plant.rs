@@ -22,6 +22,8 @@ pub(crate) struct Plant<Sp: Space> {
     pub starts_turned: bool,
     /// ζ(t₀), m.
     pub start_position: Sp::Linear<f64>,
+    /// How fast the base turns at t₀ with the momentum it has and its joints at rest, rad/s.
+    pub tumble_rate: f64,
 }
 
 impl<Sp: Space> Plant<Sp> {
@@ -30,11 +32,15 @@ impl<Sp: Space> Plant<Sp> {
         tree.kinematics(&problem.task.initial_joints, &mut data);
         tree.momentum(&mut data);
         let start_attitude = attitude.of_angles(&problem.task.initial_base_attitude);
+        let drift = Drift::new(&problem.task.initial_momentum, tree.total_mass());
+        tree.base_rate(&vec![0.0; tree.joint_count()], &mut data);
+        drift.tumble(attitude, &start_attitude, &mut data);
         Self {
             start_position: attitude.base_position(&start_attitude, &data.system_center),
             start_attitude,
             starts_turned: problem.task.starts_turned(),
-            drift: Drift::new(&problem.task.initial_momentum, tree.total_mass()),
+            tumble_rate: data.base_rate.dot(&data.base_rate).sqrt(),
+            drift,
             attitude,
             tree,
         }

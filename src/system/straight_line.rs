@@ -4,6 +4,7 @@ use super::dispatch::{System, with_system};
 use super::free_floating::FreeFloating;
 use super::motion::Trajectory;
 use super::quintic::quintic;
+use super::tumble;
 use crate::dynamics::Data;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::{Space, Vector};
@@ -38,6 +39,11 @@ pub fn straight_line(problem: &Problem) -> StraightLine {
 /// timing, at `steps` + 1 even times: times, joint positions and base poses of a [`Trajectory`],
 /// whose other columns stay empty.
 pub fn straight_motion(problem: &Problem, duration: f64, steps: usize) -> Trajectory {
+    if let Some(other) = tumble::by_quaternion(problem) {
+        let mut motion = straight_motion(&other, duration, steps);
+        tumble::describe(problem.attitude, &mut motion);
+        return motion;
+    }
     with_system!(&System::new(problem), system => {
         integrate(problem, system, duration, steps.max(1))
     })
@@ -70,7 +76,7 @@ fn integrate<Sp: Space>(
         ..Trajectory::default()
     };
     let h = duration / steps as f64;
-    let within = STEPS.div_ceil(steps);
+    let within = STEPS.div_ceil(steps).max(tumble::steps(system, h));
     for k in 0..=steps {
         let t = k as f64 * h;
         joints(t, &mut q, &mut dq);
@@ -91,7 +97,9 @@ fn integrate<Sp: Space>(
             system.base_rate(eta, &dq, &mut data);
             attitude.rates(eta, &data.base_rate, rates);
         };
+        let before = eta.clone();
         method.integrate(rate, [t, t + h], within, &mut eta);
+        tumble::settle::<Sp>(attitude, &before, &mut eta);
     }
     path
 }

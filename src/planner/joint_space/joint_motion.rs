@@ -15,7 +15,8 @@ use crate::planner::{Diagnosis, LimitFinding, Method, Plan, PlanError, Starts, S
 use crate::problem::{LimitId, Problem, ProblemError, Unit};
 use crate::refine::{Errors, midpoint_errors};
 use crate::system::{
-    Component, FreeFloating, Trajectory, goal_errors_in, metrics, of_joint, trajectory,
+    Component, FreeFloating, Trajectory, goal_errors_in, metrics, of_joint, settle, trajectory,
+    tumbling_steps,
 };
 use crate::transcription::Discretization;
 use std::time::Instant;
@@ -325,11 +326,12 @@ impl<'a, Sp: Space, M: JointMotion> Follower<'a, Sp, M> {
     fn new(system: &'a FreeFloating<Sp>, motion: &'a M) -> Self {
         let n = system.joint_count();
         let breakpoints = motion.breakpoints();
+        let step = breakpoints[breakpoints.len() - 1] / STEPS;
         Self {
             system,
             motion,
             data: Data::new(system.tree()),
-            step: breakpoints[breakpoints.len() - 1] / STEPS,
+            step: step / tumbling_steps(system, step) as f64,
             method: Rk4::new(system.attitude().count()),
             eta: system.start_attitude().to_vec(),
             q: vec![0.0; n],
@@ -344,9 +346,12 @@ impl<'a, Sp: Space, M: JointMotion> Follower<'a, Sp, M> {
         let h = (to - from) / steps;
         let mut method = std::mem::take(&mut self.method);
         let mut eta = std::mem::take(&mut self.eta);
+        let attitude = self.system.attitude();
         for step in 0..steps as usize {
             let rate = |t: f64, eta: &[f64], rates: &mut [f64]| self.rate(piece, t, eta, rates);
+            let before = eta.clone();
             method.step(rate, from + step as f64 * h, h, &mut eta);
+            settle::<Sp>(attitude, &before, &mut eta);
         }
         (self.method, self.eta) = (method, eta);
     }

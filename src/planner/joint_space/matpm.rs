@@ -13,7 +13,7 @@ use crate::digits::digits;
 use crate::ocp::Interval;
 use crate::planner::{Diagnosis, Method, Plan, PlanError};
 use crate::problem::{LimitId, Problem};
-use crate::system::{Component, System, Trajectory, with_system};
+use crate::system::{Component, System, Trajectory, by_quaternion, describe, with_system};
 use std::time::Instant;
 
 /// Plans `problem`'s task with the least largest acceleration of every joint.
@@ -38,6 +38,11 @@ pub(in crate::planner) fn plan(problem: &Problem) -> Result<Plan, PlanError> {
 /// Times, joint positions and poses of the base along that motion; `None` where the task is not from rest to rest in
 /// joint space, or a joint cannot be there in time.
 pub fn poses(problem: &Problem) -> Option<Trajectory> {
+    if let Some(other) = by_quaternion(problem) {
+        let mut motion = poses(&other)?;
+        describe(problem.attitude, &mut motion);
+        return Some(motion);
+    }
     rest_to_rest(Method::Matpm, problem).ok()?;
     let motion = BangCruiseBang::new(problem);
     let late = motion.joints.iter().any(|joint| joint.late);
