@@ -55,7 +55,7 @@ mod tests {
         let of = |cost| dearest(std::slice::from_ref(&price), cost);
         assert_eq!(
             of(1e-3).as_deref(),
-            Some("position of joint elbow: J −10 %, were it a tenth wider")
+            Some("position of joint elbow: J −10.00 %, were it a tenth wider")
         );
         for cost in [0.0, 1e-17, -1e-17, f64::NAN, 1.0] {
             assert_eq!(of(cost), None, "{cost}");
