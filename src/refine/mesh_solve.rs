@@ -186,35 +186,34 @@ impl MeshSolver<'_> {
     ) -> Result<Solved, ipopt::IpoptError> {
         let mut spent = Duration::ZERO;
         let mut nlp_iterations = 0;
+        let mut last = None;
         // Where a structure fails, the law has another mesh.
         let attempts = attempts(&settings, program.structure().is_empty());
-        let mut attempts = attempts.into_iter().flatten();
-        let mut attempt = attempts.next();
-        let solution = loop {
-            let this = attempt.take().expect("there is a first and a next one");
+        for attempt in attempts.into_iter().flatten() {
             // Multipliers may mislead; the same trajectory without them has every chance of
             // a cold start.
-            let primal = this
-                .barrier
-                .is_none()
-                .then(|| Iterate::primal(iterate.x.clone()));
-            let from = primal.as_ref().unwrap_or(&iterate);
+            let from = match attempt.barrier {
+                Some(_) => iterate.clone(),
+                None => Iterate::primal(iterate.x.clone()),
+            };
             let settings = nlp::Settings {
-                warm_start: this.barrier,
-                max_iterations: this.iterations,
+                warm_start: attempt.barrier,
+                max_iterations: attempt.iterations,
                 time_limit: settings.time_limit.map(|limit| limit.saturating_sub(spent)),
                 ..settings.clone()
             };
-            let solution = in_units(program, units, &settings, from, monitor)?;
+            let solution = in_units(program, units, &settings, &from, monitor)?;
             statistics.add(&solution.statistics);
             spent += solution.statistics.total;
             nlp_iterations += solution.statistics.iterations;
             let stopped = matches!(solution.status, Status::Interrupted | Status::TimeLimit);
-            attempt = attempts.next();
-            if solution.status.is_solved() || stopped || attempt.is_none() {
-                break solution;
+            let ended = solution.status.is_solved() || stopped;
+            last = Some(solution);
+            if ended {
+                break;
             }
-        };
+        }
+        let solution = last.expect("there is a first attempt");
         Ok(Solved {
             trajectory: program.unpack(&solution.iterate.x),
             layout: program.layout().clone(),

@@ -10,8 +10,9 @@ use nalgebra::UnitQuaternion;
 
 /// Angle that the base turns by in one step, rad: far within what methods of second order bear.
 const TURN: f64 = 0.125;
-/// Most steps in place of one: a base that turns more often cannot be followed on any mesh.
-const MOST: f64 = 2000.0;
+/// Most steps in place of one, which take part of a second in all: a base that turns thousands of times
+/// cannot be followed on any mesh.
+const MOST: f64 = 200.0;
 /// Length that a quaternion may be off one for rounding and the method's error.
 const OFF: f64 = 1e-3;
 /// Longest modified Rodrigues parameters that are followed, 356°: no more is a number at 360°.
@@ -37,8 +38,8 @@ pub(crate) fn by_quaternion(problem: &Problem) -> Option<Problem> {
         .iter()
         .any(|l| *l != 0.0);
     let in_space = problem.robot.plane().is_none();
-    let by_itself = problem.attitude != SpatialAttitude::Quaternion;
-    let edited = (tumbles && in_space && by_itself)
+    let otherwise = problem.attitude != SpatialAttitude::Quaternion;
+    let edited = (tumbles && in_space && otherwise)
         .then(|| problem.edited(|problem| problem.set_attitude(SpatialAttitude::Quaternion)));
     edited?.ok()
 }
