@@ -283,6 +283,15 @@ fn misuse_is_explained() {
         "{error}"
     );
 
+    // Joints that turn a thousand times a second can be followed, but not within the steps there are.
+    let mut fast = plan.clone();
+    fast.u[0] = 1e4;
+    let error = verify(&problem, &fast).unwrap_err();
+    let VerifyError::StepLimit { limit, time, .. } = error else {
+        panic!("{error}")
+    };
+    assert!(limit < 20_000 && time < DURATION, "{error}");
+
     let mut wild = plan;
     wild.u[2] = 1e300;
     let error = verify(&problem, &wild).unwrap_err();

@@ -5,6 +5,7 @@
 //! | `pool` | the threads, which last as long as the process |
 //! | `for_each` | every item of an iterator, by one of several workers |
 //! | `map` | a function of every index, results in order |
+//! | `share` | threads that large items of work divide among themselves |
 //!
 //! The calling thread always works too: it takes pieces from the front, and threads of the pool
 //! that are free take pieces from the back. Nobody waits for a pool thread that has not begun, and
@@ -16,11 +17,14 @@
 mod for_each;
 mod map;
 mod pool;
+mod share;
 
 pub(crate) use for_each::for_each;
 pub(crate) use map::map;
+pub(crate) use share::map_sharing;
 
-use std::cell::Cell;
+use share::Share;
+use std::cell::RefCell;
 use std::num::NonZero;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -28,9 +32,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// The process's number of threads; zero means one thread for each processor.
 static DEFAULT: AtomicUsize = AtomicUsize::new(0);
 
+/// Who says how many threads the work of a thread uses.
+#[derive(Debug, Clone)]
+enum Chosen {
+    /// [`with_threads`].
+    Fixed(NonZero<usize>),
+    /// [`map_sharing`]: more as soon as other items have ended.
+    Shared(Share),
+}
+
 thread_local! {
-    /// The number of threads inside [`with_threads`].
-    static CHOSEN: Cell<Option<NonZero<usize>>> = const { Cell::new(None) };
+    /// What was chosen for this thread; nothing where the process's number holds.
+    static CHOSEN: RefCell<Option<Chosen>> = const { RefCell::new(None) };
 }
 
 /// How many threads the work of this thread may use, itself included.
@@ -38,10 +51,25 @@ thread_local! {
 /// It is the number given to [`with_threads`], else that given to [`set_thread_count`], else the
 /// number of processors this process may use.
 pub fn thread_count() -> usize {
+    CHOSEN.with_borrow(|chosen| match chosen {
+        Some(Chosen::Fixed(threads)) => threads.get(),
+        Some(Chosen::Shared(share)) => share.now(),
+        None => of_process(),
+    })
+}
+
+/// How many [`thread_count`] may come to while the present work goes on.
+pub(crate) fn most_threads() -> usize {
+    CHOSEN.with_borrow(|chosen| match chosen {
+        Some(Chosen::Fixed(threads)) => threads.get(),
+        Some(Chosen::Shared(share)) => share.most(),
+        None => of_process(),
+    })
+}
+
+/// How many threads work uses for which nothing was chosen.
+fn of_process() -> usize {
     static PROCESSORS: OnceLock<usize> = OnceLock::new();
-    if let Some(chosen) = CHOSEN.get() {
-        return chosen.get();
-    }
     match DEFAULT.load(Ordering::Relaxed) {
         // Asked once: the standard library reads files to answer.
         0 => {
@@ -67,15 +95,20 @@ pub fn set_thread_count(threads: NonZero<usize>) {
 /// assert_eq!(inside, 1);
 /// ```
 pub fn with_threads<R>(threads: NonZero<usize>, body: impl FnOnce() -> R) -> R {
+    with(Chosen::Fixed(threads), body)
+}
+
+/// Runs `body` with what is chosen for it.
+fn with<R>(chosen: Chosen, body: impl FnOnce() -> R) -> R {
     /// Restores the earlier choice, also where the body panics.
-    struct Restore(Option<NonZero<usize>>);
+    struct Restore(Option<Chosen>);
 
     impl Drop for Restore {
         fn drop(&mut self) {
-            CHOSEN.set(self.0);
+            CHOSEN.set(self.0.take());
         }
     }
 
-    let _restore = Restore(CHOSEN.replace(Some(threads)));
+    let _restore = Restore(CHOSEN.replace(Some(chosen)));
     body()
 }

@@ -72,7 +72,7 @@ impl<'a> Points<'a> {
         let kept = vec![0.0; if all > MOST_KEPT { 0 } else { all }];
         let mut workers = vec![worker(derivatives)];
         if work >= LEAST_WORK {
-            let count = parallel::thread_count().min(MOST);
+            let count = parallel::most_threads().min(MOST);
             let another = || {
                 worker(NodeDerivatives::new(
                     ocp,
@@ -102,10 +102,9 @@ impl<'a> Points<'a> {
 
     /// Outputs of every point, by points.
     pub fn values(&mut self, x: &[f64], shared: Shared<'_>, out: &mut [f64]) {
-        let count = if self.work < VALUES * LEAST_WORK {
-            1
-        } else {
-            self.workers.len()
+        let count = match self.work < VALUES * LEAST_WORK {
+            true => 1,
+            false => self.count(),
         };
         let shape = self.shape;
         let iterate = Iterate { shape, x, shared };
@@ -118,7 +117,7 @@ impl<'a> Points<'a> {
     pub fn jacobians(&mut self, x: &[f64], shared: Shared<'_>, out: &mut [f64]) {
         let shape = self.shape;
         let iterate = Iterate { shape, x, shared };
-        self.each(self.workers.len(), iterate, out, |worker, _, kept, out| {
+        self.each(self.count(), iterate, out, |worker, _, kept, out| {
             worker.derivatives.jacobian(&worker.inputs, out);
             worker.derivatives.keep(kept);
         });
@@ -129,11 +128,16 @@ impl<'a> Points<'a> {
         let shape = self.shape;
         let iterate = Iterate { shape, x, shared };
         let width = shape.outputs();
-        self.each(self.workers.len(), iterate, out, |worker, k, kept, out| {
+        self.each(self.count(), iterate, out, |worker, k, kept, out| {
             let weights = &weights[k * width..(k + 1) * width];
             worker.derivatives.recall(kept);
             worker.derivatives.hessian(&worker.inputs, weights, out);
         });
+    }
+
+    /// How many workers have a thread at this moment.
+    fn count(&self) -> usize {
+        self.workers.len().min(parallel::thread_count())
     }
 
     /// Calls `body` for every point with its piece of what is kept, or none, and its part of `out`,

@@ -13,8 +13,10 @@ use std::ops::ControlFlow;
 
 const RELATIVE: f64 = 1e-12;
 const ABSOLUTE: f64 = 1e-14;
-/// Far above what any plan needs; ends the integration of one that runs away.
-const MAX_STEPS: usize = 1_000_000;
+/// Most steps in all, and for each node: plans that move as planned need two a node, and one that
+/// runs away is ended before it takes longer than its planning.
+const STEPS: usize = 10_000;
+const STEPS_PER_NODE: usize = 200;
 
 /// The plan at its nodes: what re-integration is compared with.
 pub(super) struct Planned<'a> {
@@ -120,8 +122,9 @@ pub(super) fn run<P: Pass>(
         time,
     };
     let mut y = pass.start().map_err(|NotPositiveDefinite| singular(0.0))?;
-    let mut integrator = Dop853::new(y.len(), RELATIVE, ABSOLUTE, MAX_STEPS);
     let mesh = &plan.mesh;
+    let limit = STEPS + STEPS_PER_NODE * mesh.points();
+    let mut integrator = Dop853::new(y.len(), RELATIVE, ABSOLUTE, limit);
     for s in 0..mesh.segments() {
         pass.enter(plan, s);
         if s > 0 {
@@ -154,7 +157,7 @@ pub(super) fn run<P: Pass>(
                 IntegrationError::StepLimit(tau) => VerifyError::StepLimit {
                     pass: P::NAME,
                     time: time(tau),
-                    limit: MAX_STEPS,
+                    limit,
                 },
             })?;
         if let Some(tau) = overflow {

@@ -53,7 +53,26 @@ impl Connection {
 
     /// A: turn of the base per unit of each joint's motion.
     pub fn coefficients(&self, theta: [f64; 2]) -> [f64; 2] {
-        self.at(theta).map(|a| a.value)
+        self.coefficients_in(&mut self.scratch(), theta)
+    }
+
+    /// Memory for [`coefficients_in`](Self::coefficients_in).
+    pub(super) fn scratch(&self) -> Data<Planar, f64> {
+        Data::new(&self.tree)
+    }
+
+    /// [`coefficients`](Self::coefficients), with memory to work in.
+    pub(super) fn coefficients_in(
+        &self,
+        data: &mut Data<Planar, f64>,
+        theta: [f64; 2],
+    ) -> [f64; 2] {
+        self.tree.kinematics(&theta, data);
+        self.tree.momentum(data);
+        [[1.0, 0.0], [0.0, 1.0]].map(|rates| {
+            self.tree.base_rate(&rates, data);
+            data.base_rate.x
+        })
     }
 
     /// The curvature ∂A₂/∂θ₁ − ∂A₁/∂θ₂, exact by dual numbers.

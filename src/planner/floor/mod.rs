@@ -6,10 +6,12 @@
 mod connection;
 mod grid;
 mod lower_bounds;
+mod sweep;
 
 pub use connection::{Connection, CurvatureBound};
-pub use grid::{Certainty, Grid};
+pub use grid::Grid;
 pub use lower_bounds::LowerBounds;
+pub use sweep::Certainty;
 
 use super::LimitFinding;
 use crate::dynamics::attitude::Attitude;

@@ -10,8 +10,11 @@ use crate::refine::{self, Refinement};
 use crate::system::{FreeFloating, StartKind, Starts, along, metrics, trajectory};
 use crate::transcription::{Discretization, Patterns};
 
-/// Iterations of one solve; fewer where the solver's limit is lower.
-const ITERATIONS: u32 = 400;
+/// Iterations of the solve from the straight path, which a plan without a search begins with; fewer
+/// where the solver's limit is lower.
+const STRAIGHT_ITERATIONS: u32 = 400;
+/// Those from any other start: what takes longer is rarely the best.
+const ITERATIONS: u32 = 250;
 /// Largest error (28) beyond which a solution is far from any motion.
 const GROSS: f64 = 1.0;
 
@@ -72,8 +75,12 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
             None => self.start(index),
         };
         let own = &self.problem.solver;
+        let most = match kind {
+            StartKind::Straight | StartKind::Given => STRAIGHT_ITERATIONS,
+            _ => ITERATIONS,
+        };
         let solver = || nlp::Settings {
-            max_iterations: own.max_iterations.min(ITERATIONS),
+            max_iterations: own.max_iterations.min(most),
             warm_start: None,
             time_limit: deadline.remaining(),
             ..own.clone()

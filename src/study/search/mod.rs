@@ -1,11 +1,11 @@
 //! One task from many starts: the best optimum that is found.
 //!
-//! Every start is solved on the first mesh, where J ranks them as it does on finer ones; the best
-//! few and the one that a plan begins with are refined. Half of the starts are paths unlike each
+//! Every start is solved on the first mesh, where J ranks them nearly as it does on finer ones; the
+//! best few are refined, and the one that a plan begins with where it may come to less. Half of the starts are paths unlike each
 //! other, the rest the best optima until then with a detour or a loop on top (monotonic basin
 //! hopping, D. J. Wales, J. P. K. Doye, doi:10.1021/jp970984n). Starts and their order follow from the
-//! seed, each start has random numbers of its own, and each solve runs on one thread: the result is
-//! the same whatever the number of threads.
+//! seed, each start has random numbers of its own, and each solve runs on one thread, or on several where
+//! others are idle: the result is the same whatever the number of threads.
 //!
 //! No number of starts proves that there is nothing better.
 //!
@@ -14,12 +14,14 @@
 //! | `event` | what a monitor sees |
 //! | `first_mesh` | the solve of one start |
 //! | `optimum` | what several starts ended at, counted once |
+//! | `refining` | finer meshes for the best of them |
 //! | `results` | what starts that run at the same time see of each other |
 //! | `teller` | one monitor for work on several threads |
 
 mod event;
 mod first_mesh;
 mod optimum;
+mod refining;
 mod results;
 mod teller;
 
@@ -29,13 +31,13 @@ pub use optimum::Optimum;
 use crate::nlp::{Control, Deadline};
 use crate::parallel;
 use crate::planner::floor::LowerBounds;
-use crate::planner::{Event, Plan, PlanError, Planner, Start, Status};
+use crate::planner::{Plan, PlanError, Planner, Start, Status};
 use crate::problem::Problem;
 use crate::system::{StartKind, System, with_system};
 use first_mesh::FirstMesh;
-use optimum::{Ended, same};
+use optimum::{Ended, better_first, same};
+use refining::{Refined, Refinements, Refining};
 use results::Results;
-use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -49,6 +51,8 @@ const SEARCHING: f64 = 0.6;
 const REFINED: usize = 3;
 /// Relative difference of J on the first mesh and on finer ones that is one of meshes.
 const MESHES: f64 = 1e-3;
+/// Steps of the solver after which a start is slow: later ones go on without it.
+const SLOW: u32 = 64;
 /// How many of the best are perturbed.
 const PERTURBED: usize = 3;
 
@@ -96,12 +100,6 @@ pub struct Searched {
     pub plan: Plan,
     /// All that was found.
     pub optima: Optima,
-}
-
-/// One of the best with its refined plan.
-struct Refined {
-    ended: Ended,
-    plan: Plan,
 }
 
 /// What is refined of all that starts ended at, and the rest.
@@ -171,7 +169,12 @@ impl Search {
         let ended = search.try_starts(2, (problem, Some(given)), &mut optima, &teller)?;
         let better = |one: &Ended| one.optimum.objective < cost * (1.0 - MESHES);
         let best = ended.into_iter().next().filter(better);
-        let refined = refine(problem, best.into_iter().collect(), deadline, &teller)?;
+        let refining = Refining {
+            problem,
+            deadline,
+            teller: &teller,
+        };
+        let refined = refining.each(best.into_iter().collect())?;
         Ok(refined.into_iter().next().map(|one| one.plan))
     }
 
@@ -190,8 +193,17 @@ impl Search {
             ..Optima::default()
         };
         let ended = self.try_starts(fresh, (problem, given), &mut optima, &teller)?;
-        let (best, rest) = choose(ended);
-        let mut refined = refine(problem, best, deadline, &teller)?;
+        let (best, mut rest) = choose(ended);
+        let refining = Refining {
+            problem,
+            deadline,
+            teller: &teller,
+        };
+        let Refinements {
+            mut refined,
+            others,
+            bounds,
+        } = refining.hopeful(best)?;
         refined.sort_by(|a, b| {
             let unsolved = |one: &Refined| one.plan.status != Status::Solved;
             let costs = a.plan.objective.total_cmp(&b.plan.objective);
@@ -200,6 +212,8 @@ impl Search {
         for one in &refined {
             list(&mut optima.found, one);
         }
+        rest.extend(others);
+        rest.sort_by(better_first);
         optima
             .found
             .extend(rest.into_iter().map(|ended| ended.optimum));
@@ -207,7 +221,7 @@ impl Search {
         let plan = match best {
             Some(plan) if plan.status == Status::Solved || teller.has_stopped() => plan,
             best => {
-                let problem = within(problem, deadline)?;
+                let problem = refining.in_time()?;
                 let (candidate, of) = (1, 1);
                 let plan = Planner::new().plan_with(&problem, given, &mut |&event| {
                     teller.tell(&SearchEvent::Refining {
@@ -225,10 +239,7 @@ impl Search {
                 best.filter(better).unwrap_or(plan)
             }
         };
-        if plan.status == Status::Solved {
-            let found = plan.metrics.max_base_attitude;
-            optima.bounds = LowerBounds::new(problem, found, deadline);
-        }
+        optima.bounds = bounds.filter(|_| plan.status == Status::Solved);
         optima.time = began.elapsed();
         Ok(Searched { plan, optima })
     }
@@ -269,15 +280,19 @@ impl Search {
                 if teller.has_stopped() || deadline.has_passed() {
                     return Ok(None);
                 }
-                let solve = || {
-                    let mut answer = || teller.answer();
-                    first_mesh.solve(start, &bests, deadline, &mut answer)
+                let mut steps = 0;
+                let mut answer = || {
+                    steps += 1;
+                    if steps == SLOW {
+                        results.mark_slow(start);
+                    }
+                    teller.answer()
                 };
-                let ended = parallel::with_threads(NonZero::<usize>::MIN, solve)?;
+                let ended = first_mesh.solve(start, &bests, deadline, &mut answer)?;
                 report(&ended);
                 Ok(ended)
             };
-            parallel::map(starts, &|_| results.run_next(one));
+            parallel::map_sharing(starts, &|_| results.run_next(one));
         });
         optima.tried = tried.into_inner();
         let (found, solved) = results.into_distinct()?;
@@ -286,8 +301,8 @@ impl Search {
     }
 }
 
-/// The best few and what a plan without a search would begin with, so that a search is never worse; and
-/// the others.
+/// The best few and what a plan without a search would begin with, so that a search is not worse; and the
+/// others.
 fn chosen(ended: Vec<Ended>) -> (Vec<Ended>, Vec<Ended>) {
     let mut rank = 0;
     ended.into_iter().partition(|one| {
@@ -295,42 +310,6 @@ fn chosen(ended: Vec<Ended>) -> (Vec<Ended>, Vec<Ended>) {
         let default = one.optimum.start == 0 || one.optimum.kind == StartKind::Given;
         rank <= REFINED || default
     })
-}
-
-/// Refines each of `best`, several at a time.
-fn refine(
-    problem: &Problem,
-    best: Vec<Ended>,
-    deadline: Deadline,
-    teller: &Teller<'_>,
-) -> Result<Vec<Refined>, PlanError> {
-    let of = best.len();
-    let one = |index: usize| -> Result<Plan, PlanError> {
-        let problem = within(problem, deadline)?;
-        let mut planner = Planner::new().without_diagnosis();
-        let candidate = index + 1;
-        let mut monitor = |&event: &Event<'_>| {
-            teller.tell(&SearchEvent::Refining {
-                candidate,
-                of,
-                event,
-            })
-        };
-        parallel::with_threads(NonZero::<usize>::MIN, || {
-            planner.plan_with(&problem, Some(&best[index].start), &mut monitor)
-        })
-    };
-    let plans = parallel::map(of, &one);
-    let pairs = best.iter().cloned().zip(plans);
-    pairs
-        .map(|(ended, plan)| plan.map(|plan| Refined { ended, plan }))
-        .collect()
-}
-
-/// `problem` with the time that is left.
-fn within(problem: &Problem, deadline: Deadline) -> Result<Problem, PlanError> {
-    let edited = problem.edited(|problem| problem.solver.time_limit = deadline.remaining());
-    edited.map_err(PlanError::from)
 }
 
 /// Adds what `refined` came to, or counts it to what is the same.

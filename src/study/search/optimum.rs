@@ -2,6 +2,7 @@
 
 use crate::planner::{Start, Status};
 use crate::system::StartKind;
+use std::cmp::Ordering;
 
 /// Relative difference of J, and difference of the base angles in rad, within which two starts ended
 /// at the same optimum.
@@ -38,8 +39,8 @@ pub(super) struct Ended {
     pub start: Start,
 }
 
-/// `ended` added to `found`, those that ended at the same optimum counted as one; the best first, gross
-/// ones last.
+/// `ended` added to `found`, those that ended at the same optimum counted as one; the
+/// [best first](better_first).
 pub(super) fn distinct(
     mut found: Vec<Ended>,
     ended: impl IntoIterator<Item = Ended>,
@@ -53,11 +54,14 @@ pub(super) fn distinct(
             None => found.push(one),
         }
     }
-    found.sort_by(|a, b| {
-        let costs = a.optimum.objective.total_cmp(&b.optimum.objective);
-        a.gross.cmp(&b.gross).then(costs)
-    });
+    found.sort_by(better_first);
     found
+}
+
+/// The order of optima: the least J first, gross ones last.
+pub(super) fn better_first(a: &Ended, b: &Ended) -> Ordering {
+    let costs = a.optimum.objective.total_cmp(&b.optimum.objective);
+    a.gross.cmp(&b.gross).then(costs)
 }
 
 /// Whether two are the same optimum.

@@ -2,15 +2,16 @@
 
 use super::optimum::{Ended, distinct};
 use crate::planner::PlanError;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// What a start ended at; nothing where it was not solved.
 type Result = std::result::Result<Option<Ended>, PlanError>;
 
-/// The results of all starts. Start k sees those of the starts up to k − [`LAG`](Self::LAG), no more and
-/// no less, so that what it does is the same however many starts run at the same time.
+/// The results of all starts. Start k sees those of the starts up to k − [`LAG`](Self::LAG), less those that
+/// are slow, no more and no less, so that what it does is the same however many starts run at the same
+/// time.
 pub(super) struct Results {
     state: Mutex<State>,
     changed: Condvar,
@@ -24,9 +25,11 @@ pub(super) struct Results {
 
 #[derive(Default)]
 struct State {
-    /// Results of starts that have ended before one that began earlier.
-    early: BTreeMap<usize, Result>,
-    /// How many starts are counted in `found`, from the first on.
+    /// Results that are not counted yet.
+    ended: BTreeMap<usize, Result>,
+    /// Slow starts that are not counted yet.
+    slow: BTreeSet<usize>,
+    /// How many starts are counted in `found`, from the first on, slow ones passed over.
     counted: usize,
     /// Distinct optima of these, the best first.
     found: Vec<Ended>,
@@ -40,6 +43,8 @@ struct State {
 impl Results {
     /// Starts that do not see each other: as many can run at the same time.
     pub const LAG: usize = 4;
+    /// Starts after which the result of a slow one counts.
+    const SLOW_LAG: usize = 8;
 
     /// Starts from `asking` on will ask for the `few` best of what others found.
     pub fn new(asking: usize, few: usize) -> Self {
@@ -85,23 +90,39 @@ impl Results {
         ending.result = solve(index);
     }
 
-    /// Counts all results up to the first start that still runs.
+    /// Start `index`, which still runs, is slow: later ones do not wait for it for now. To be said by what it
+    /// did, never by the time that took.
+    pub fn mark_slow(&self, index: usize) {
+        let mut state = self.lock();
+        state.slow.insert(index);
+        self.count(&mut state);
+    }
+
+    /// Start `index` has ended.
     fn add(&self, index: usize, result: Result) {
         let mut state = self.lock();
-        state.early.insert(index, result);
-        while let Some(result) = {
+        state.ended.insert(index, result);
+        self.count(&mut state);
+    }
+
+    /// Counts all results up to the first start that is waited for.
+    fn count(&self, state: &mut State) {
+        loop {
             let next = state.counted;
-            state.early.remove(&next)
-        } {
-            match result {
-                Ok(ended) => {
-                    state.solved += usize::from(ended.is_some());
-                    let found = std::mem::take(&mut state.found);
-                    state.found = distinct(found, ended);
-                }
-                Err(error) => {
-                    state.error.get_or_insert(error);
-                }
+            let due = |&&index: &&usize| index + Self::SLOW_LAG <= next;
+            if let Some(&index) = state.slow.first().filter(due) {
+                let Some(result) = state.ended.remove(&index) else {
+                    break;
+                };
+                state.slow.remove(&index);
+                state.take(result);
+                continue;
+            }
+            if !state.slow.contains(&next) {
+                let Some(result) = state.ended.remove(&next) else {
+                    break;
+                };
+                state.take(result);
             }
             state.counted += 1;
             let sees = state.counted + Self::LAG - 1;
@@ -118,13 +139,31 @@ impl Results {
     /// # Errors
     /// That of the first start that has one.
     pub fn into_distinct(self) -> std::result::Result<(Vec<Ended>, usize), PlanError> {
-        let state = self
-            .state
-            .into_inner()
-            .unwrap_or_else(PoisonError::into_inner);
+        let state = self.state.into_inner();
+        let mut state = state.unwrap_or_else(PoisonError::into_inner);
+        // Slow ones that no start has waited for.
+        for result in std::mem::take(&mut state.ended).into_values() {
+            state.take(result);
+        }
         match state.error {
             Some(error) => Err(error),
             None => Ok((state.found, state.solved)),
+        }
+    }
+}
+
+impl State {
+    /// Counts one result.
+    fn take(&mut self, result: Result) {
+        match result {
+            Ok(ended) => {
+                self.solved += usize::from(ended.is_some());
+                let found = std::mem::take(&mut self.found);
+                self.found = distinct(found, ended);
+            }
+            Err(error) => {
+                self.error.get_or_insert(error);
+            }
         }
     }
 }
@@ -201,6 +240,49 @@ mod tests {
         for threads in 2..=4 {
             assert_eq!(costs(threads), alone);
         }
+    }
+
+    /// Start 1 is slow and better than all; what the others see of it is the same whether it ends before
+    /// them or after.
+    #[test]
+    fn a_slow_start_is_seen_late_and_waited_for_then_alone() {
+        let seen = |threads: usize| {
+            let results = Results::new(0, 1);
+            let least = Mutex::new(BTreeMap::new());
+            with_threads(NonZero::new(threads).unwrap(), || {
+                map(20, &|_| {
+                    results.run_next(|k| {
+                        let best = results.best_before(k);
+                        let cost = best.first().map_or(100.0, |best| best.optimum.objective);
+                        least.lock().unwrap().insert(k, cost);
+                        if k == 1 {
+                            results.mark_slow(k);
+                            // Until others pass by, where there are others.
+                            while threads > 1 && least.lock().unwrap().len() < 8 {
+                                std::thread::yield_now();
+                            }
+                        }
+                        Ok(Some(ended(k, if k == 1 { 1.0 } else { 50.0 })))
+                    });
+                });
+            });
+            let (found, solved) = results.into_distinct().unwrap();
+            assert_eq!((solved, found[0].optimum.start), (20, 1));
+            least
+                .into_inner()
+                .unwrap()
+                .into_values()
+                .collect::<Vec<_>>()
+        };
+        let alone = seen(1);
+        let first = 1 + Results::SLOW_LAG + Results::LAG;
+        let expected = |k| match k {
+            0..Results::LAG => 100.0,
+            k if k < first => 50.0,
+            _ => 1.0,
+        };
+        assert_eq!(alone, (0..20).map(expected).collect::<Vec<_>>());
+        assert_eq!(seen(2), alone);
     }
 
     #[test]
