@@ -175,3 +175,44 @@ fn a_magnitude_that_cannot_be_is_refused_by_its_key() {
         "{text}"
     );
 }
+
+/// What ended the refinement of a plan that has not converged is said.
+#[test]
+fn a_plan_that_has_not_converged_names_the_reason() {
+    let shipped = |set: &[&str]| {
+        let mut overrides = Overrides::default();
+        for text in set {
+            overrides.set(text).unwrap();
+        }
+        let path = Path::new("config/table1-relaxed.toml");
+        plan(&ProblemFile::load(path, &overrides).unwrap().problem).unwrap()
+    };
+    for (set, word) in [
+        (
+            &["mesh.max_iterations=2"][..],
+            "mesh.max_iterations = 2 ended the refinement",
+        ),
+        (
+            &["mesh.method=\"rpm\"", "mesh.max_global_points=40"],
+            "mesh.max_global_points = 40 ended the refinement",
+        ),
+        // Bounded, but so widely that the best rates jump.
+        (
+            &["limits.control=1e4", "mesh.max_iterations=3"],
+            "may have rates that jump",
+        ),
+    ] {
+        let plan = shipped(set);
+        assert_eq!(plan.status, Status::NotConverged, "{set:?}");
+        let said = |text: &String| text.contains(word);
+        assert!(
+            plan.warnings.iter().any(said),
+            "{set:?}: {:?}",
+            plan.warnings
+        );
+    }
+    let solved = shipped(&[]);
+    let reasons = ["ended the refinement", "rates that jump"];
+    let named = |text: &String| reasons.iter().any(|reason| text.contains(reason));
+    assert!(!solved.warnings.iter().any(named), "{:?}", solved.warnings);
+}

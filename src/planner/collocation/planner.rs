@@ -3,7 +3,7 @@
 use super::elastic_start::led_within;
 use super::first_mesh::first_mesh;
 use super::sparsity_cache::SparsityCache;
-use super::warnings::{unbounded, warnings};
+use super::warnings::{reasons, warnings};
 use super::{bound_warnings, diagnosis, retarget};
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
@@ -301,7 +301,7 @@ fn assemble<Sp: Space>(
     let trajectory = trajectory(system, &outcome.trajectory);
     let mut warnings = warnings(&trajectory, &outcome, solver);
     if status == Status::NotConverged {
-        warnings.extend(unbounded(problem));
+        warnings.extend(reasons(problem, &outcome, &trajectory));
     }
     let max_error = if status == Status::Infeasible {
         midpoint_errors(system, &outcome.trajectory).max()

@@ -3,9 +3,8 @@
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::largest::largest;
 use crate::nlp::{self, ipopt};
-use crate::ocp::Interval;
 use crate::problem::Problem;
-use crate::refine::{CutShort, Outcome};
+use crate::refine::{self, CutShort, Method, Outcome, Verdict};
 use crate::system::Trajectory;
 
 /// The warnings about a trajectory, and about how it was found.
@@ -23,22 +22,44 @@ pub(super) fn warnings(
     found.into_iter().flatten().collect()
 }
 
-/// A word about joints whose control nothing bounds: the best may be a jump of their rates, which no
-/// mesh resolves.
-pub(super) fn unbounded(problem: &Problem) -> Option<String> {
+/// What may be the reason that a plan has not converged.
+pub(super) fn reasons(
+    problem: &Problem,
+    outcome: &Outcome,
+    trajectory: &Trajectory,
+) -> Vec<String> {
+    let found = [
+        unbounded(problem, trajectory),
+        too_few_meshes(outcome, &problem.mesh),
+    ];
+    found.into_iter().flatten().collect()
+}
+
+/// Part of the duration within which a joint comes to its largest rate, below which that is a jump.
+const JUMP: f64 = 1e-3;
+
+/// A word about joints whose control nothing bounds, or next to nothing: the best may be a jump of their
+/// rates, which no mesh resolves.
+fn unbounded(problem: &Problem, trajectory: &Trajectory) -> Option<String> {
     let (limits, cost) = (&problem.limits, &problem.cost);
+    let duration = trajectory.t.last().copied().unwrap_or(f64::NAN);
+    let is_free = |j: usize| {
+        let weights = [cost.control[j], cost.torque[j]];
+        let torque = limits.torque[j];
+        let is_bounded = torque.lower.is_finite() && torque.upper.is_finite();
+        let rates = trajectory.joint_velocity.iter().map(|rates| rates[j].abs());
+        let most = limits.control[j].upper.max(-limits.control[j].lower);
+        let jumps = most.is_infinite() || largest(rates) < JUMP * most * duration;
+        weights.iter().all(|weight| *weight == 0.0) && !is_bounded && jumps
+    };
     let joints = problem.robot.joints().iter().enumerate();
-    let free = joints.filter(|(j, _)| {
-        let ranges = [limits.control[*j], limits.torque[*j]];
-        let is_bounded = |range: &Interval| range.lower.is_finite() && range.upper.is_finite();
-        let weights = [cost.control[*j], cost.torque[*j]];
-        !ranges.iter().any(is_bounded) && weights.iter().all(|weight| *weight == 0.0)
-    });
+    let free = joints.filter(|(j, _)| is_free(*j));
     let names: Vec<&str> = free.map(|(_, joint)| joint.name.as_str()).collect();
     (!names.is_empty()).then(|| {
         format!(
-            "nothing bounds the control of {}: the best motion may have rates that jump, and no mesh \
-             resolves that; give cost.control a weight, or limits.control or limits.torque bounds",
+            "nothing bounds the control of {} closely: the best motion may have rates that jump, and no \
+             mesh resolves that; give cost.control a weight, or limits.control or limits.torque \
+             tighter bounds",
             names.join(", ")
         )
     })
@@ -69,6 +90,39 @@ fn discarded(outcome: &Outcome) -> Option<String> {
              converge; this is the plan before, the time is that of all"
         )
     })
+}
+
+/// A word about a number of meshes, or of points, that ended the refinement.
+fn too_few_meshes(outcome: &Outcome, settings: &refine::Settings) -> Option<String> {
+    let last = outcome.records.last()?;
+    let more_would_do = matches!(
+        last.verdict,
+        Verdict::AboveTolerance | Verdict::BoundExceeded
+    );
+    if !more_would_do || outcome.cut_short.is_some() {
+        return None;
+    }
+    let tolerance = settings.tolerance;
+    match settings.method {
+        Method::Adaptive => {
+            let most = settings.max_iterations?;
+            (outcome.records.len() >= most).then(|| {
+                format!(
+                    "mesh.max_iterations = {most} ended the refinement before it had come to the \
+                     tolerance {tolerance:e}; leave it out for as many meshes as it takes"
+                )
+            })
+        }
+        Method::Global => {
+            let most = settings.max_global_points;
+            (last.points >= most).then(|| {
+                format!(
+                    "mesh.max_global_points = {most} ended the refinement before it had come to the \
+                     tolerance {tolerance:e}; allow more, or plan with mesh.method = \"a-rpm\""
+                )
+            })
+        }
+    }
 }
 
 /// Base pitch beyond which roll-pitch-yaw rates are more than ten times the base's own, rad.
