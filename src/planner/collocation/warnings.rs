@@ -95,11 +95,8 @@ fn discarded(outcome: &Outcome) -> Option<String> {
 /// A word about a number of meshes, or of points, that ended the refinement.
 fn too_few_meshes(outcome: &Outcome, settings: &refine::Settings) -> Option<String> {
     let last = outcome.records.last()?;
-    let more_would_do = matches!(
-        last.verdict,
-        Verdict::AboveTolerance | Verdict::BoundExceeded
-    );
-    if !more_would_do || outcome.cut_short.is_some() {
+    // Of a limit that is exceeded between the points its own warning says so.
+    if last.verdict != Verdict::AboveTolerance || outcome.cut_short.is_some() {
         return None;
     }
     let tolerance = settings.tolerance;

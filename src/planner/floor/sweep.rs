@@ -1,6 +1,7 @@
 //! How little the base can turn: dynamic programming over the steps on the grid.
 
 use super::grid::{Grid, MOVES, place, stride};
+use crate::autodiff::{self, Kernel};
 use crate::parallel;
 use std::ops::Range;
 
@@ -33,7 +34,14 @@ impl Grid {
         let stride = stride(self.size);
         range.set(place(stride, self.start), self.ends[0]);
         for done in 1..=self.steps {
-            self.step(done, &range, &mut next, &most, certain);
+            autodiff::dispatch(Step {
+                grid: self,
+                done,
+                range: &range,
+                next: &mut next,
+                most: &most,
+                certain,
+            });
             std::mem::swap(&mut range, &mut next);
             if done % LOOK == 0 && range.are_empty() {
                 break;
@@ -42,33 +50,6 @@ impl Grid {
         let goal = place(stride, self.goal);
         let [low, high] = [&range.low, &range.high].map(|range| range[goal] + self.ends[1]);
         [low.max(-bound), high.min(bound)]
-    }
-
-    /// The ranges `next` after `done` steps, from those before, within ±`most` at every angle.
-    fn step(&self, done: usize, range: &Ranges, next: &mut Ranges, most: &[f64], certain: f64) {
-        next.clear();
-        let columns = self.on_the_way(1, done);
-        if columns.is_empty() {
-            return;
-        }
-        let count = columns.len();
-        let stride = stride(self.size);
-        for i in self.on_the_way(0, done) {
-            let first = place(stride, [i, columns.start]);
-            let own = first..first + count;
-            let new = (&mut next.low[own.clone()], &mut next.high[own.clone()]);
-            // The same angles in the rows before, of and after this one, and one on either side.
-            let three = |all| Three::around(all, stride, first, count);
-            let old = [three(&range.low), three(&range.high)];
-            let turn = [0, 1, 2, 3].map(|m| three(&self.turn[m]));
-            row(
-                old,
-                turn,
-                (&self.per_cell[own.clone()], certain),
-                &most[own],
-                new,
-            );
-        }
     }
 
     /// Angles of one joint, counted from the first, that lie on some way from the start to the goal with
@@ -109,6 +90,48 @@ impl Grid {
     }
 }
 
+/// A step: the ranges `next` after `done` steps, from those before, within ±`most` at every angle.
+struct Step<'a> {
+    grid: &'a Grid,
+    done: usize,
+    range: &'a Ranges,
+    next: &'a mut Ranges,
+    most: &'a [f64],
+    /// 1 for a bound, 0 for an estimate.
+    certain: f64,
+}
+
+impl Kernel for Step<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            grid,
+            done,
+            range,
+            next,
+            most,
+            certain,
+        } = self;
+        next.clear();
+        let columns = grid.on_the_way(1, done);
+        if columns.is_empty() {
+            return;
+        }
+        let count = columns.len();
+        let stride = stride(grid.size);
+        for i in grid.on_the_way(0, done) {
+            let first = place(stride, [i, columns.start]);
+            let own = first..first + count;
+            let new = (&mut next.low[own.clone()], &mut next.high[own.clone()]);
+            // The same angles in the rows before, of and after this one, and one on either side.
+            let old = [&range.low, &range.high].map(|all| Three::around(all, stride, first, count));
+            let turn = [0, 1, 2, 3].map(|m| Three::around(&grid.turn[m], stride, first, count));
+            let area = (&grid.per_cell[own.clone()], certain);
+            row(old, turn, area, &most[own], new);
+        }
+    }
+}
+
 /// Parts of three rows of numbers at every angle, with one more on either side.
 #[derive(Clone, Copy)]
 struct Three<'a> {
@@ -119,6 +142,7 @@ struct Three<'a> {
 
 impl<'a> Three<'a> {
     /// Those around the `count` numbers from `first` on.
+    #[inline(always)]
     fn around(all: &'a [f64], stride: usize, first: usize, count: usize) -> Self {
         let part = |first: usize| &all[first - 1..][..count + 2];
         Self {
@@ -131,6 +155,7 @@ impl<'a> Three<'a> {
 
 /// One row of the ranges `low` and `high` after a step, from the `old` ones, lower and upper ends, around
 /// it.
+#[inline(always)]
 fn row(
     [lower, upper]: [Three<'_>; 2],
     turn: [Three<'_>; 4],
@@ -179,6 +204,7 @@ fn row(
 }
 
 /// The range that holds both.
+#[inline(always)]
 fn around(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     // Comparisons become vector instructions, `min` and `max` of a NaN do not.
     let low = if b[0] < a[0] { b[0] } else { a[0] };
@@ -187,11 +213,13 @@ fn around(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 /// The range that holds all four.
+#[inline(always)]
 fn around_all([a, b, c, d]: [[f64; 2]; 4]) -> [f64; 2] {
     around(around(a, b), around(c, d))
 }
 
 /// The range with so much more on either side.
+#[inline(always)]
 fn widened([low, high]: [f64; 2], by: f64) -> [f64; 2] {
     [low - by, high + by]
 }
