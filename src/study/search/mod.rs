@@ -1,11 +1,11 @@
 //! One task from many starts: the best optimum that is found.
 //!
 //! Every start is solved on the first mesh, where J ranks them nearly as it does on finer ones; the
-//! best few are refined, and the one that a plan begins with where it may come to less. Half of the starts are paths unlike each
-//! other, the rest the best optima until then with a detour or a loop on top (monotonic basin
-//! hopping, D. J. Wales, J. P. K. Doye, doi:10.1021/jp970984n). Starts and their order follow from the
-//! seed, each start has random numbers of its own, and each solve runs on one thread, or on several where
-//! others are idle: the result is the same whatever the number of threads.
+//! best few are refined, and the one that a plan begins with where it may come to less. Half of the
+//! starts are paths unlike each other, the rest the best optima until then with a detour or a loop on
+//! top (monotonic basin hopping, D. J. Wales, J. P. K. Doye, doi:10.1021/jp970984n). Starts and their
+//! order follow from the seed, each start has random numbers of its own, and each solve runs on one
+//! thread, or on several where others are idle: the result is the same whatever the number of threads.
 //!
 //! No number of starts proves that there is nothing better.
 //!

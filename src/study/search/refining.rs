@@ -21,7 +21,7 @@ pub(super) struct Refined {
 /// What refining came to.
 pub(super) struct Refinements {
     pub refined: Vec<Refined>,
-    /// Those that cannot come to less than the refined ones.
+    /// Those too far above the refined ones on the first mesh.
     pub others: Vec<Ended>,
     /// What no motion can do better than; for planar arms with two joints.
     pub bounds: Option<LowerBounds>,
@@ -56,14 +56,14 @@ impl Refining<'_> {
         let least = best
             .first()
             .map_or(f64::INFINITY, |one| one.optimum.objective);
-        let (first, others) = best.into_iter().partition(|one| may_reach(one, least));
+        let (first, others): (_, Vec<Ended>) =
+            best.into_iter().partition(|one| may_reach(one, least));
         let (mut refined, bounds) = self.with_bounds(first)?;
         let solved = refined
             .iter()
             .filter(|one| one.plan.status == Status::Solved);
         let costs = solved.map(|one| one.plan.objective);
         let least = costs.fold(f64::INFINITY, f64::min);
-        let others: Vec<Ended> = others;
         let (second, others) = others.into_iter().partition(|one| may_reach(one, least));
         refined.extend(self.each(second)?);
         Ok(Refinements {
