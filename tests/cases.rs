@@ -211,6 +211,10 @@ fn a_plan_that_has_not_converged_names_the_reason() {
             plan.warnings
         );
     }
+    // Bounds that a mesh resolves are no reason, whatever the method makes of them.
+    let global = shipped(&["mesh.method=\"rpm\""]);
+    let jumps = |text: &String| text.contains("rates that jump");
+    assert!(!global.warnings.iter().any(jumps), "{:?}", global.warnings);
     let solved = shipped(&[]);
     let reasons = ["ended the refinement", "rates that jump"];
     let named = |text: &String| reasons.iter().any(|reason| text.contains(reason));

@@ -36,7 +36,7 @@ pub(super) fn reasons(
 }
 
 /// Part of the duration within which a joint comes to its largest rate, below which that is a jump.
-const JUMP: f64 = 1e-3;
+const JUMP: f64 = 1e-4;
 
 /// A word about joints whose control nothing bounds, or next to nothing: the best may be a jump of their
 /// rates, which no mesh resolves.
