@@ -1,11 +1,12 @@
-//! How far the base must turn at least, beside what a search found.
+//! How far the base must turn at least, beside what a search finds.
 
-use super::{Certainty, Grid, WORK};
+use super::{Certainty, Grid, STEPS, WORK};
+use crate::largest::largest;
 use crate::nlp::Deadline;
-use crate::parallel;
 use crate::problem::Problem;
+use crate::system::straight_motion;
 
-/// Accuracy of the bound on the largest base angle, as a part of that which was found.
+/// Accuracy of the bound on the largest base angle, as a part of it.
 const ACCURACY: f64 = 0.015;
 
 /// What no motion of a planar arm with two joints can do better than, by its momentum, its largest rates
@@ -23,31 +24,26 @@ pub struct LowerBounds {
 }
 
 impl LowerBounds {
-    /// Those of `problem`, for which a motion was found whose largest base angle is `found`, rad.
+    /// Those of `problem`; that on the largest base angle is at most what it is along the straight path.
     ///
     /// `None` unless the arm is planar with two joints whose rates are limited, goes to a given goal in a
     /// limited time, and the system has no momentum; or where `deadline` passes.
-    pub(crate) fn new(problem: &Problem, found: f64, deadline: Deadline) -> Option<Self> {
+    pub(crate) fn new(problem: &Problem, deadline: Deadline) -> Option<Self> {
         if deadline.has_passed() {
             return None;
         }
         let grid = Grid::new(problem, WORK)?;
-        let start = problem.task.initial_base_attitude[0].abs().min(found);
-        // Of all motions and, at the same time, of those within the middle of what is to be searched.
-        let bounds = [f64::INFINITY, 0.5 * (start + found)];
-        let ranges = parallel::map(2, &|k| grid.reachable(bounds[k], Certainty::Bound));
-        let ([low, high], [least, most]) = (ranges[0], ranges[1]);
+        let [low, high] = grid.reachable(f64::INFINITY, Certainty::Bound);
         if low > high || deadline.has_passed() {
             return None;
         }
         let at_end = low.max(-high).max(0.0);
-        let half = match least <= most {
-            true => [start, bounds[1]],
-            false => [bounds[1], found],
-        };
-        let between = [half[0].max(at_end).min(half[1]), half[1]];
+        let straight = straight_motion(problem, problem.task.duration.center(), STEPS);
+        let most = largest(straight.base_attitude.iter().map(|x| x[0].abs()));
+        let least = problem.task.initial_base_attitude[0].abs().max(at_end);
+        let between = [least.min(most), most];
         Some(Self {
-            max_base_attitude: grid.smallest_bound(between, ACCURACY * found, Certainty::Bound),
+            max_base_attitude: grid.smallest_bound(between, ACCURACY, Certainty::Bound),
             final_base_attitude: at_end,
         })
     }

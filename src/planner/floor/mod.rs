@@ -6,6 +6,8 @@
 mod connection;
 mod grid;
 mod lower_bounds;
+mod ranges;
+mod step;
 mod sweep;
 
 pub use connection::{Connection, CurvatureBound};
@@ -22,9 +24,9 @@ use crate::system::{Component, FreeFloating, straight_motion};
 
 /// Angles and steps of the dynamic programme for two joints, together.
 const WORK: f64 = 1e7;
-/// Accuracy of its smallest bound, as a part of the bound that was found to work.
+/// Accuracy of its smallest bound, as a part of that bound.
 const ACCURACY: f64 = 0.01;
-/// Steps along the path of one joint.
+/// Steps along a straight path.
 const STEPS: usize = 1000;
 /// Part of a bound that was found to work by which a floor may be above it: the tolerance of what
 /// was found.
@@ -99,8 +101,7 @@ impl Floors {
                 (low <= high).then(|| low.max(-high).max(0.0))
             }
             Self::TwoJoints(grid) => {
-                let accuracy = ACCURACY * works;
-                let bound = grid.smallest_bound([asked, works], accuracy, Certainty::Bound);
+                let bound = grid.smallest_bound([asked, works], ACCURACY, Certainty::Bound);
                 Some(bound)
             }
             Self::Unknown => None,

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 /// Angles and steps of the dynamic programme together, angles 3° apart over the paper's joint limits.
 const WORK: f64 = 1.28e6;
-/// Range of the smallest bound, and its accuracy, rad.
+/// Range of the smallest bound, rad, and its accuracy, a part of it.
 const SOUGHT: [f64; 2] = [0.0, std::f64::consts::FRAC_PI_2];
 const ACCURACY: f64 = 5e-4;
 /// Cells of the grid the curvature is integrated on.

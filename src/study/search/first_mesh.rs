@@ -24,8 +24,8 @@ pub(super) struct FirstMesh<'a, Sp: Space> {
     system: &'a FreeFloating<Sp>,
     patterns: Patterns,
     starts: Starts<'a, Sp>,
-    /// Trajectories that are no joint paths, tried after the straight path.
-    others: Vec<(StartKind, Discretization)>,
+    /// Tried after the straight path, where there is one.
+    given: Option<&'a Discretization>,
     mesh: Mesh,
 }
 
@@ -33,27 +33,36 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
     pub fn new(
         problem: &'a Problem,
         system: &'a FreeFloating<Sp>,
-        given: Option<&Start>,
+        given: Option<&'a Start>,
         seed: u64,
     ) -> Result<Self, PlanError> {
-        let given = given.map(|start| (StartKind::Given, start.trajectory.clone()));
-        let others = given.into_iter().chain(reaction_null_space(problem));
         Ok(Self {
             problem,
             system,
             patterns: Patterns::detect(system),
             starts: Starts::new(problem, system, seed),
-            others: others.collect(),
+            given: given.map(|start| &start.trajectory),
             mesh: first_mesh(problem, system)?,
         })
     }
 
-    /// Start `index`; the first is the straight path.
+    /// Start `index`; the first is the straight path, and the first after that and the given one leads
+    /// through the reaction null space where it can.
     fn start(&self, index: usize) -> (StartKind, Discretization) {
-        if let Some((kind, trajectory)) = index.checked_sub(1).and_then(|k| self.others.get(k)) {
-            return (*kind, trajectory.resample(self.mesh.clone()));
+        let index = match (index, self.given) {
+            (1, Some(given)) => return (StartKind::Given, given.resample(self.mesh.clone())),
+            (2.., Some(_)) => index - 1,
+            _ => index,
+        };
+        if index == 1
+            && let Some(found) = reaction_null_space(self.problem)
+        {
+            return (
+                StartKind::ReactionNullSpace,
+                found.resample(self.mesh.clone()),
+            );
         }
-        let (kind, path) = self.starts.path(index - self.others.len().min(index));
+        let (kind, path) = self.starts.path(index);
         let duration = self.problem.task.duration.center();
         (kind, along(self.system, duration, &path, self.mesh.clone()))
     }
@@ -133,10 +142,10 @@ impl<'a, Sp: Space> FirstMesh<'a, Sp> {
 }
 
 /// The path through the reaction null space, where the arm has one and the task is one for it.
-fn reaction_null_space(problem: &Problem) -> Option<(StartKind, Discretization)> {
+fn reaction_null_space(problem: &Problem) -> Option<Discretization> {
     let method = Method::ReactionNullSpace;
     let planned = Planner::new().plan_by(method, problem, None, &mut |_| Control::Continue);
     let usable = |plan: &Plan| plan.discretization.x.iter().all(|x| x.is_finite());
     let plan = planned.ok().filter(usable)?;
-    Some((StartKind::ReactionNullSpace, plan.discretization))
+    Some(plan.discretization)
 }

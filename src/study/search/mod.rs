@@ -16,6 +16,7 @@
 //! | `optimum` | what several starts ended at, counted once |
 //! | `refining` | finer meshes for the best of them |
 //! | `results` | what starts that run at the same time see of each other |
+//! | `rivals` | the same for what is refined |
 //! | `teller` | one monitor for work on several threads |
 
 mod event;
@@ -23,6 +24,7 @@ mod first_mesh;
 mod optimum;
 mod refining;
 mod results;
+mod rivals;
 mod teller;
 
 pub use event::SearchEvent;
@@ -39,7 +41,7 @@ use optimum::{Ended, better_first, same};
 use refining::{Refined, Refinements, Refining};
 use results::Results;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 use teller::Teller;
 
@@ -47,8 +49,11 @@ use teller::Teller;
 pub const STARTS: usize = 32;
 /// Part of the time limit after which no further start is begun.
 const SEARCHING: f64 = 0.6;
-/// How many of the best are refined.
+/// How many of the best are refined, and how many more where J differs so little that the first mesh
+/// may rank them wrongly.
 const REFINED: usize = 3;
+const MOST_REFINED: usize = 6;
+const NEAR: f64 = 0.04;
 /// Relative difference of J on the first mesh and on finer ones that is one of meshes.
 const MESHES: f64 = 1e-3;
 /// Steps of the solver after which a start is slow: later ones go on without it.
@@ -166,7 +171,8 @@ impl Search {
         let deadline = Deadline::after(problem.solver.time_limit);
         let teller = Teller::new(monitor);
         let (search, mut optima) = (Self { starts: 2, seed: 0 }, Optima::default());
-        let ended = search.try_starts(2, (problem, Some(given)), &mut optima, &teller)?;
+        let task = (problem, Some(given));
+        let ended = search.try_starts(2, task, &|| (), &mut optima, &teller)?;
         let better = |one: &Ended| one.optimum.objective < cost * (1.0 - MESHES);
         let best = ended.into_iter().next().filter(better);
         let refining = Refining {
@@ -174,8 +180,7 @@ impl Search {
             deadline,
             teller: &teller,
         };
-        let refined = refining.each(best.into_iter().collect())?;
-        Ok(refined.into_iter().next().map(|one| one.plan))
+        best.map(|one| refining.alone(&one)).transpose()
     }
 
     fn run_choosing(
@@ -192,7 +197,11 @@ impl Search {
             seed: self.seed,
             ..Optima::default()
         };
-        let ended = self.try_starts(fresh, (problem, given), &mut optima, &teller)?;
+        let bounds = OnceLock::new();
+        let beside = || {
+            bounds.get_or_init(|| LowerBounds::new(problem, deadline));
+        };
+        let ended = self.try_starts(fresh, (problem, given), &beside, &mut optima, &teller)?;
         let (best, mut rest) = choose(ended);
         let refining = Refining {
             problem,
@@ -201,8 +210,8 @@ impl Search {
         };
         let Refinements {
             mut refined,
+            left,
             others,
-            bounds,
         } = refining.hopeful(best)?;
         refined.sort_by(|a, b| {
             let unsolved = |one: &Refined| one.plan.status != Status::Solved;
@@ -213,6 +222,12 @@ impl Search {
             list(&mut optima.found, one);
         }
         rest.extend(others);
+        for one in left {
+            match optima.found.iter_mut().find(|known| one.is_alike(known)) {
+                Some(known) => known.hits += one.ended.optimum.hits,
+                None => rest.push(one.ended),
+            }
+        }
         rest.sort_by(better_first);
         optima
             .found
@@ -239,17 +254,19 @@ impl Search {
                 best.filter(better).unwrap_or(plan)
             }
         };
+        let bounds = bounds.into_inner().flatten();
         optima.bounds = bounds.filter(|_| plan.status == Status::Solved);
         optima.time = began.elapsed();
         Ok(Searched { plan, optima })
     }
 
     /// Distinct optima on the first mesh, the best first, of so many `fresh` starts and of those that
-    /// perturb what was found.
+    /// perturb what was found. Does what is to be done `beside` them once.
     fn try_starts(
         &self,
         fresh: usize,
         (problem, given): (&Problem, Option<&Start>),
+        beside: &(dyn Fn() + Sync),
         optima: &mut Optima,
         teller: &Teller<'_>,
     ) -> Result<Vec<Ended>, PlanError> {
@@ -292,7 +309,10 @@ impl Search {
                 report(&ended);
                 Ok(ended)
             };
-            parallel::map_sharing(starts, &|_| results.run_next(one));
+            parallel::map_sharing(starts + 1, &|piece| match piece < starts {
+                true => results.run_next(one),
+                false => beside(),
+            });
         });
         optima.tried = tried.into_inner();
         let (found, solved) = results.into_distinct()?;
@@ -304,24 +324,21 @@ impl Search {
 /// The best few and what a plan without a search would begin with, so that a search is not worse; and the
 /// others.
 fn chosen(ended: Vec<Ended>) -> (Vec<Ended>, Vec<Ended>) {
+    let best = ended.first();
+    let least = best.map_or(f64::INFINITY, |one| one.optimum.objective);
     let mut rank = 0;
     ended.into_iter().partition(|one| {
         rank += 1;
         let default = one.optimum.start == 0 || one.optimum.kind == StartKind::Given;
-        rank <= REFINED || default
+        let cost = one.optimum.objective;
+        let near = rank <= MOST_REFINED && cost - NEAR * cost.abs() <= least;
+        rank <= REFINED || near || default
     })
 }
 
 /// Adds what `refined` came to, or counts it to what is the same.
 fn list(found: &mut Vec<Optimum>, refined: &Refined) {
-    let plan = &refined.plan;
-    let optimum = Optimum {
-        objective: plan.objective,
-        max_base_attitude: plan.metrics.max_base_attitude,
-        final_base_attitude: plan.metrics.final_base_attitude,
-        status: Some(plan.status),
-        ..refined.ended.optimum.clone()
-    };
+    let optimum = refined.optimum();
     let known = found
         .iter_mut()
         .find(|known| known.status == optimum.status && same(known, &optimum));

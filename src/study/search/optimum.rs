@@ -8,6 +8,9 @@ use std::cmp::Ordering;
 /// at the same optimum.
 const SAME_COST: f64 = 1e-5;
 const SAME_ANGLE: f64 = 1e-3;
+/// The same where one of them is on a coarser mesh than the other, though not on the first.
+const ALIKE_COST: f64 = 1e-3;
+const ALIKE_ANGLE: f64 = 5e-3;
 
 /// One optimum that starts ended at.
 #[derive(Debug, Clone)]
@@ -66,9 +69,18 @@ pub(super) fn better_first(a: &Ended, b: &Ended) -> Ordering {
 
 /// Whether two are the same optimum.
 pub(super) fn same(a: &Optimum, b: &Optimum) -> bool {
+    within(a, b, (SAME_COST, SAME_ANGLE))
+}
+
+/// The same for one on its last mesh and one on a coarser mesh.
+pub(super) fn alike(a: &Optimum, b: &Optimum) -> bool {
+    within(a, b, (ALIKE_COST, ALIKE_ANGLE))
+}
+
+fn within(a: &Optimum, b: &Optimum, (cost, angle): (f64, f64)) -> bool {
     let largest = a.objective.abs().max(b.objective.abs());
-    let near = |x: f64, y: f64| (x - y).abs() <= SAME_ANGLE;
-    (a.objective - b.objective).abs() <= SAME_COST * largest
+    let near = |x: f64, y: f64| (x - y).abs() <= angle;
+    (a.objective - b.objective).abs() <= cost * largest
         && near(a.max_base_attitude, b.max_base_attitude)
         && near(a.final_base_attitude, b.final_base_attitude)
 }
