@@ -5,10 +5,12 @@ mod problems;
 use ffsm_ipopt::config::{Overrides, ProblemFile};
 use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::parallel::with_threads;
-use ffsm_ipopt::planner::{Planner, Start, Status, plan};
+use ffsm_ipopt::planner::{Event, Planner, Start, Status, plan};
 use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::refine;
 use ffsm_ipopt::study::search::{Search, SearchEvent, Searched};
 use ffsm_ipopt::verify::verify;
+use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::time::Duration;
 
@@ -67,6 +69,49 @@ fn arms_of_two_joints_have_bounds_beside_what_is_found() {
     let within = |value: f64, low: f64, high: f64| (low..high).contains(&degrees(value));
     assert!(within(bounds.max_base_attitude, 24.0, 29.2), "{bounds:?}");
     assert!(within(bounds.final_base_attitude, 10.0, 18.2), "{bounds:?}");
+}
+
+/// Its optima differ by less than 1e-4 of J once they are refined, by 1 % on the first mesh.
+#[test]
+fn what_is_no_better_on_the_second_mesh_is_left() {
+    let file = ProblemFile::load(
+        "config/table1-heavy-base.toml".as_ref(),
+        &Overrides::default(),
+    );
+    let problem = file.unwrap().problem;
+    let mut costs: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    let mut keep = |event: &SearchEvent<'_>| {
+        if let SearchEvent::Refining {
+            candidate,
+            event: Event::Refinement(refine::Event::Solved(record)),
+            ..
+        } = event
+        {
+            costs.entry(*candidate).or_default().push(record.objective);
+        }
+        Control::Continue
+    };
+    let search = Search {
+        starts: 12,
+        seed: 1,
+    };
+    let Searched { plan, optima, .. } = search.run(&problem, None, &mut keep).unwrap();
+    assert_eq!(plan.status, Status::Solved);
+    let hits: usize = optima.found.iter().map(|one| one.hits).sum();
+    assert_eq!(hits, optima.solved);
+    let mut least = f64::INFINITY;
+    let mut left = 0;
+    for cost in costs.values() {
+        let is_better = least == f64::INFINITY || cost[1] < least * (1.0 - 3e-4);
+        assert_eq!(cost.len() > 2, is_better, "{costs:?}");
+        least = least.min(cost[1]);
+        left += usize::from(!is_better);
+    }
+    assert!(left >= 2, "{costs:?}");
+    // Those that were left are of the same optimum or above it.
+    let refined = optima.found.iter().filter(|one| one.status.is_some());
+    assert!(refined.count() <= costs.len() - left);
+    assert!(plan.objective < 1.6533, "{}", plan.objective);
 }
 
 /// A weight this large on the largest base angle has many optima, between which a cold start on a finer

@@ -13,7 +13,7 @@ use crate::solution::export::{Samples, Times, columns, csv, even_times};
 use crate::solution::{self, Provenance};
 use crate::study::Baselines;
 use crate::study::search::{Optima, Search};
-use crate::{refine, verify};
+use crate::{parallel, refine, verify};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -162,10 +162,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     progress.finish();
     let (mut plan, optima) =
         planned.map_err(|error| Failure::planning(&file, warm_start, error))?;
-    plan.verify(&file.problem);
+    let (judgement, baselines) = parallel::both(
+        || plan.judgement(&file.problem),
+        || Baselines::of(&file.problem, &plan.discretization),
+    );
+    if let Some(judgement) = judgement {
+        plan.accept(judgement);
+    }
 
     let mut set = FileSet::new();
-    let baselines = Baselines::of(&file.problem, &plan.discretization);
     let page = match arguments.no_report {
         true => Page::Left,
         false => Page::Made(&baselines),

@@ -5,6 +5,7 @@
 //! | `pool` | the threads, which last as long as the process |
 //! | `for_each` | every item of an iterator, by one of several workers |
 //! | `map` | a function of every index, results in order |
+//! | `both` | two unlike pieces of work |
 //! | `share` | threads that large items of work divide among themselves |
 //!
 //! The calling thread always works too: it takes pieces from the front, and threads of the pool
@@ -14,11 +15,13 @@
 
 #![warn(missing_debug_implementations)]
 
+mod both;
 mod for_each;
 mod map;
 mod pool;
 mod share;
 
+pub(crate) use both::both;
 pub(crate) use for_each::for_each;
 pub(crate) use map::map;
 pub(crate) use share::map_sharing;

@@ -120,13 +120,24 @@ impl Plan {
     /// A warning then says so. Infeasible and interrupted plans are left as they are: there is no
     /// plan to check, or no time for it.
     pub fn verify(&mut self, problem: &Problem) {
-        if matches!(self.status, Status::Infeasible | Status::Interrupted) {
-            return;
+        if let Some(judgement) = self.judgement(problem) {
+            self.accept(judgement);
         }
+    }
+
+    /// What [`verify`](Self::verify) finds, for [`accept`](Self::accept); nothing for plans that it leaves
+    /// as they are.
+    pub(crate) fn judgement(&self, problem: &Problem) -> Option<Judgement> {
+        let left = matches!(self.status, Status::Infeasible | Status::Interrupted);
+        (!left).then(|| judge(problem, &self.discretization))
+    }
+
+    /// Takes over what was found.
+    pub(crate) fn accept(&mut self, judgement: Judgement) {
         let Judgement {
             verification,
             doubt,
-        } = judge(problem, &self.discretization);
+        } = judgement;
         self.verification = verification;
         if self.status == Status::Solved
             && let Some(doubt) = doubt

@@ -11,7 +11,7 @@ use super::motion::{Metrics, Trajectory};
 use super::trajectory::resampled;
 use crate::collocation::{Mesh, MeshError};
 use crate::dynamics::Data;
-use crate::dynamics::attitude::Attitude;
+use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::{Space, Vector};
 use crate::largest::largest;
 use crate::problem::Problem;
@@ -24,6 +24,10 @@ const SEGMENTS: usize = 100;
 pub fn base_angles(trajectory: &Trajectory) -> Vec<f64> {
     let rows = trajectory.base_attitude.iter();
     match trajectory.attitude {
+        // Of a plan that has not converged a quaternion need not be of length one.
+        Some(SpatialAttitude::Quaternion) => rows
+            .map(|eta| SpatialAttitude::Quaternion.to_quaternion(eta).angle())
+            .collect(),
         Some(attitude) => rows
             .map(|eta| attitude.squared_rotation_angle::<f64>(eta).sqrt())
             .collect(),

@@ -19,6 +19,7 @@ mod texts;
 use super::format::{cost, degrees, time};
 use crate::collocation::Mesh;
 use crate::config::Drawing;
+use crate::parallel;
 use crate::planner::{Method, Status};
 use crate::printable::printable;
 use crate::problem::Problem;
@@ -229,11 +230,22 @@ fn charts_over_time(panels: &[Panel]) -> Markup {
 
 /// Charts with the numbers behind them.
 fn with_numbers(panels: &[Panel]) -> Markup {
-    html! {
-        div.charts { @for panel in panels { (chart(panel)) } }
-        @if let Ok(json) = ChartData::of(panels).json() {
-            script #numbers type="application/json" { (PreEscaped(json)) }
+    let numbers = || {
+        html! {
+            @if let Ok(json) = ChartData::of(panels).json() {
+                script #numbers type="application/json" { (PreEscaped(json)) }
+            }
         }
+    };
+    // Most of a page's time.
+    let mut parts = parallel::map(panels.len() + 1, &|k| match panels.get(k) {
+        Some(panel) => chart(panel),
+        None => numbers(),
+    });
+    let numbers = parts.pop();
+    html! {
+        div.charts { @for chart in &parts { (chart) } }
+        @if let Some(numbers) = &numbers { (numbers) }
     }
 }
 
