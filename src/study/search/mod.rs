@@ -35,7 +35,7 @@ use crate::parallel;
 use crate::planner::floor::LowerBounds;
 use crate::planner::{Plan, PlanError, Planner, Start, Status};
 use crate::problem::Problem;
-use crate::system::{StartKind, System, with_system};
+use crate::system::{System, with_system};
 use first_mesh::FirstMesh;
 use optimum::{Ended, better_first, same};
 use refining::{Refined, Refinements, Refining};
@@ -329,10 +329,9 @@ fn chosen(ended: Vec<Ended>) -> (Vec<Ended>, Vec<Ended>) {
     let mut rank = 0;
     ended.into_iter().partition(|one| {
         rank += 1;
-        let default = one.optimum.start == 0 || one.optimum.kind == StartKind::Given;
         let cost = one.optimum.objective;
         let near = rank <= MOST_REFINED && cost - NEAR * cost.abs() <= least;
-        rank <= REFINED || near || default
+        rank <= REFINED || near || one.is_default()
     })
 }
 

@@ -42,6 +42,13 @@ pub(super) struct Ended {
     pub start: Start,
 }
 
+impl Ended {
+    /// Whether a plan without a search would begin with it.
+    pub fn is_default(&self) -> bool {
+        self.optimum.start == 0 || self.optimum.kind == StartKind::Given
+    }
+}
+
 /// `ended` added to `found`, those that ended at the same optimum counted as one; the
 /// [best first](better_first).
 pub(super) fn distinct(

@@ -89,7 +89,8 @@ impl Refining<'_> {
     }
 
     /// Refines each of `best`, several at a time, and leaves on their second mesh those that are no better
-    /// than `least` or an earlier one; those that were left come first.
+    /// than `least` or an earlier one, but [default](Ended::is_default) ones only where they are worse;
+    /// those that were left come first.
     fn compete(
         &self,
         best: Vec<Ended>,
@@ -100,8 +101,9 @@ impl Refining<'_> {
         let mut plans = parallel::map_sharing(of, &|_| {
             let mut rival = rivals.begin_next();
             let index = rival.index();
-            let mut may_win = |cost| rival.may_win(cost);
-            let plan = self.plan(&best[index], (index + 1, of), &mut may_win);
+            let is_default = best[index].is_default();
+            let mut goes_on = |cost| rival.goes_on(cost, is_default);
+            let plan = self.plan(&best[index], (index + 1, of), &mut goes_on);
             if let Ok((plan, None)) = &plan
                 && plan.status == Status::Solved
             {
@@ -121,12 +123,12 @@ impl Refining<'_> {
         Ok(refined.into_iter().partition(|one| one.left_at.is_some()))
     }
 
-    /// The plan that `ended` comes to, and its J on the mesh where it was left since it may not win.
+    /// The plan that `ended` comes to, and its J on the mesh where it does not go on.
     fn plan(
         &self,
         ended: &Ended,
         (candidate, of): (usize, usize),
-        may_win: &mut dyn FnMut(f64) -> bool,
+        goes_on: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(Plan, Option<f64>), PlanError> {
         let problem = self.in_time()?;
         let mut left_at = None;
@@ -145,7 +147,7 @@ impl Refining<'_> {
             {
                 let first = *first_error.get_or_insert(record.max_error);
                 let says_more = record.max_error < first && !record.verdict.is_converged();
-                if says_more && !may_win(record.objective) {
+                if says_more && !goes_on(record.objective) {
                     left_at = Some(record.objective);
                     return Control::Stop;
                 }

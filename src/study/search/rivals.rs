@@ -8,7 +8,7 @@ use std::sync::{Condvar, Mutex, PoisonError};
 const ALIKE: f64 = 3e-4;
 
 /// Candidates that are refined at the same time. One goes on while it is better than what earlier ones
-/// came to, so that what is refined to the end is the same however many run at the same time.
+/// came to, no others being asked, so that what is refined to the end is the same however many run at the same time.
 #[derive(Debug)]
 pub(super) struct Rivals {
     /// What each candidate came to; nothing where it is not known yet.
@@ -28,9 +28,14 @@ pub(super) struct Rival<'r> {
     is_told: bool,
 }
 
-/// Whether a candidate of cost `cost` may come to less than one of cost `least`.
+/// Whether a candidate of cost `cost` will come to less than one of cost `least`.
 pub(super) fn is_better(cost: f64, least: f64) -> bool {
     least == f64::INFINITY || cost < least - ALIKE * least.abs()
+}
+
+/// Whether it may come to less.
+fn may_be_better(cost: f64, least: f64) -> bool {
+    least == f64::INFINITY || cost < least + ALIKE * least.abs()
 }
 
 impl Rivals {
@@ -61,9 +66,9 @@ impl Rival<'_> {
         self.index
     }
 
-    /// Whether it may come to less than all earlier ones, as it is on the way to this cost; waits for
-    /// theirs.
-    pub fn may_win(&mut self, cost: f64) -> bool {
+    /// Whether it goes on, as it is on the way to this cost: where it will come to less than all earlier
+    /// ones, or may, and `has_to_be_seen`. Waits for theirs.
+    pub fn goes_on(&mut self, cost: f64, has_to_be_seen: bool) -> bool {
         self.tell(cost);
         let costs = self.rivals.costs.lock();
         let mut costs = costs.unwrap_or_else(PoisonError::into_inner);
@@ -71,7 +76,10 @@ impl Rival<'_> {
             let earlier: Option<Vec<f64>> = costs[..self.index].iter().copied().collect();
             if let Some(earlier) = earlier {
                 let least = earlier.into_iter().fold(self.rivals.least, f64::min);
-                return is_better(cost, least);
+                return match has_to_be_seen {
+                    true => may_be_better(cost, least),
+                    false => is_better(cost, least),
+                };
             }
             let woken = self.rivals.changed.wait(costs);
             costs = woken.unwrap_or_else(PoisonError::into_inner);
@@ -104,22 +112,24 @@ mod tests {
     #[test]
     fn those_go_on_that_are_better_than_all_before_them_on_any_number_of_threads() {
         let costs = [2.0, 3.0, 1.9999, f64::NAN, 1.0, 1.5, 0.5];
-        let winners = |threads, least| {
+        let winners = |threads, least, seen| {
             let rivals = Rivals::new(costs.len(), least);
             let mut ended = with_threads(NonZero::new(threads).unwrap(), || {
                 map(costs.len(), &|_| {
                     let mut rival = rivals.begin_next();
                     let cost = costs[rival.index()];
-                    (rival.index(), cost.is_nan() || rival.may_win(cost))
+                    (rival.index(), cost.is_nan() || rival.goes_on(cost, seen))
                 })
             });
             ended.sort_unstable();
             ended.into_iter().map(|(_, won)| won).collect::<Vec<_>>()
         };
         for threads in 1..4 {
-            let all = winners(threads, f64::INFINITY);
+            let all = winners(threads, f64::INFINITY, false);
             assert_eq!(all, [true, false, false, true, true, false, true]);
-            let below_one = winners(threads, 0.9);
+            let all = winners(threads, f64::INFINITY, true);
+            assert_eq!(all, [true, false, true, true, true, false, true]);
+            let below_one = winners(threads, 0.9, false);
             assert_eq!(below_one, [false, false, false, true, false, false, true]);
         }
     }
@@ -132,6 +142,6 @@ mod tests {
             panic!("on purpose");
         }));
         assert!(panicked.is_err());
-        assert!(rivals.begin_next().may_win(1.0));
+        assert!(rivals.begin_next().goes_on(1.0, false));
     }
 }
