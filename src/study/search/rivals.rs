@@ -8,7 +8,7 @@ use std::sync::{Condvar, Mutex, PoisonError};
 const ALIKE: f64 = 3e-4;
 
 /// Candidates that are refined at the same time. One goes on while it is better than what earlier ones
-/// came to, no others being asked, so that what is refined to the end is the same however many run at the same time.
+/// came to, whatever later ones do: what is refined to the end is the same however many run at a time.
 #[derive(Debug)]
 pub(super) struct Rivals {
     /// What each candidate came to; nothing where it is not known yet.
@@ -66,8 +66,8 @@ impl Rival<'_> {
         self.index
     }
 
-    /// Whether it goes on, as it is on the way to this cost: where it will come to less than all earlier
-    /// ones, or may, and `has_to_be_seen`. Waits for theirs.
+    /// Whether it goes on with `cost` on the way: where it will come to less than all earlier ones, or may
+    /// and `has_to_be_seen`. Waits for theirs.
     pub fn goes_on(&mut self, cost: f64, has_to_be_seen: bool) -> bool {
         self.tell(cost);
         let costs = self.rivals.costs.lock();
