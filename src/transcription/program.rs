@@ -165,14 +165,14 @@ impl<'a> Transcription<'a> {
     /// The trajectory of the programme's variables `x`.
     pub fn unpack(&self, x: &[f64]) -> Discretization {
         let layout = &self.layout;
-        let states = (0..=layout.points).flat_map(|k| {
-            let start = layout.state(k, 0);
-            x[start..start + layout.states].iter().copied()
-        });
-        let controls = (0..layout.points).flat_map(|k| {
-            let start = layout.control(k, 0);
-            x[start..start + layout.controls].iter().copied()
-        });
+        let mut states = Vec::with_capacity((layout.points + 1) * layout.states);
+        for k in 0..=layout.points {
+            states.extend_from_slice(&x[layout.state(k, 0)..][..layout.states]);
+        }
+        let mut controls = Vec::with_capacity(layout.points * layout.controls);
+        for k in 0..layout.points {
+            controls.extend_from_slice(&x[layout.control(k, 0)..][..layout.controls]);
+        }
         Discretization {
             mesh: self.evaluation.grid.mesh(x),
             initial_time: self.evaluation.initial_time(x),
@@ -181,8 +181,8 @@ impl<'a> Transcription<'a> {
             integrals: x[layout.integral(0)..].to_vec(),
             states: layout.states,
             controls: layout.controls,
-            x: states.collect(),
-            u: controls.collect(),
+            x: states,
+            u: controls,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Amalgamation: a front is merged with its parent where fewer fronts are worth the added zeros.
 
 use super::graph::Graph;
+use super::lists::Lists;
 use super::ordering::AssemblyTree;
 use super::simd::padded;
 
@@ -52,40 +53,34 @@ pub(super) fn merge(graph: &Graph, tree: &AssemblyTree) -> Vec<MergedFront> {
     for front in (0..count).rev() {
         into[front] = into[into[front]];
     }
-    let mut children: Vec<Vec<usize>> = vec![Vec::new(); count];
-    let mut roots = Vec::new();
-    for front in (0..count).filter(|&front| into[front] == front) {
-        match tree.parents[front].map(|parent| into[parent]) {
-            Some(parent) => children[parent].push(front),
-            None => roots.push(front),
-        }
-    }
+    let stays = |front: usize| into[front] == front;
+    let parent = |front: usize| tree.parents[front].map(|parent| into[parent]);
+    let mut children = Lists::grouped(count, count, |front| parent(front).filter(|_| stays(front)));
     order_children(&mut children, &border);
-    let mut members: Vec<Vec<usize>> = vec![Vec::new(); count];
-    for front in 0..count {
-        members[into[front]].push(front);
-    }
+    let roots = (0..count).filter(|&front| stays(front) && parent(front).is_none());
+    let members = Lists::grouped(count, count, |front| Some(into[front]));
     let mut place = vec![usize::MAX; count];
-    let mut merged: Vec<MergedFront> = Vec::new();
-    for front in postorder(&roots, &children) {
-        place[front] = merged.len();
-        for &child in &children[front] {
-            merged[place[child]].parent = Some(place[front]);
+    let mut merged: Vec<MergedFront> = Vec::with_capacity(count);
+    let expand = |nodes: &[u32], unknowns: &mut Vec<u32>| {
+        for &node in nodes {
+            unknowns.extend_from_slice(graph.unknowns(node as usize));
         }
-        let expand = |nodes: &[u32]| -> Vec<u32> {
-            nodes
-                .iter()
-                .flat_map(|&node| graph.unknowns(node as usize).iter().copied())
-                .collect()
-        };
-        merged.push(MergedFront {
-            pivots: members[front]
-                .iter()
-                .flat_map(|&member| expand(tree.pivots.get(member)))
-                .collect(),
-            border: expand(tree.borders.get(front)),
+    };
+    for front in postorder(roots, &children) {
+        place[front] = merged.len();
+        for &child in children.get(front) {
+            merged[place[child as usize]].parent = Some(place[front]);
+        }
+        let mut whole = MergedFront {
+            pivots: Vec::with_capacity(pivots[front]),
+            border: Vec::with_capacity(border[front]),
             parent: None,
-        });
+        };
+        for &member in members.get(front) {
+            expand(tree.pivots.get(member as usize), &mut whole.pivots);
+        }
+        expand(tree.borders.get(front), &mut whole.border);
+        merged.push(whole);
     }
     merged
 }
@@ -93,33 +88,34 @@ pub(super) fn merge(graph: &Graph, tree: &AssemblyTree) -> Vec<MergedFront> {
 /// Orders children so that the waiting contribution blocks take the least memory.
 ///
 /// Liu's rule (doi:10.1145/7921.11325): by decreasing peak memory less the memory that stays.
-fn order_children(children: &mut [Vec<usize>], border: &[usize]) {
+fn order_children(children: &mut Lists, border: &[usize]) {
     let left: Vec<usize> = border.iter().map(|&b| padded(b) * padded(b)).collect();
     let mut peak = vec![0; border.len()];
     // Children have lower numbers than their parents.
-    for front in 0..children.len() {
-        let children = &mut children[front];
-        children.sort_by_key(|&child| std::cmp::Reverse(peak[child] - left[child]));
+    for front in 0..border.len() {
+        let children = children.get_mut(front);
+        children
+            .sort_by_key(|&child| std::cmp::Reverse(peak[child as usize] - left[child as usize]));
         let mut waiting = 0;
         for &child in children.iter() {
-            peak[front] = peak[front].max(waiting + peak[child]);
-            waiting += left[child];
+            peak[front] = peak[front].max(waiting + peak[child as usize]);
+            waiting += left[child as usize];
         }
         peak[front] = peak[front].max(waiting + left[front]);
     }
 }
 
 /// Every front after all of its children.
-fn postorder(roots: &[usize], children: &[Vec<usize>]) -> Vec<usize> {
+fn postorder(roots: impl Iterator<Item = usize>, children: &Lists) -> Vec<usize> {
     let mut order = Vec::new();
     let mut stack: Vec<(usize, usize)> = Vec::new();
-    for &root in roots {
+    for root in roots {
         stack.push((root, 0));
         while let Some((front, next)) = stack.last_mut() {
-            match children[*front].get(*next) {
+            match children.get(*front).get(*next) {
                 Some(&child) => {
                     *next += 1;
-                    stack.push((child, 0));
+                    stack.push((child as usize, 0));
                 }
                 None => {
                     order.push(*front);

@@ -125,12 +125,8 @@ fn time_order(pattern: &Pattern, graph: &Graph, dense: &[bool]) -> Vec<u32> {
         })
         .collect();
     let mut order: Vec<u32> = (0..graph.len() as u32).collect();
-    order.sort_by(|&a, &b| {
-        let (a, b) = (a as usize, b as usize);
-        (dense[a], place[a])
-            .partial_cmp(&(dense[b], place[b]))
-            .expect("numbers")
-    });
+    // The bits of numbers that are not negative are in the order of the numbers.
+    order.sort_by_cached_key(|&node| (dense[node as usize], place[node as usize].to_bits()));
     order
 }
 

@@ -17,6 +17,29 @@ impl Lists {
         self.spans.push((start as u32, length as u32));
     }
 
+    /// The numbers below `count` in `lists` lists, each in the list that `list_of` says, in order.
+    pub fn grouped(lists: usize, count: usize, list_of: impl Fn(usize) -> Option<usize>) -> Self {
+        let mut spans = vec![(0, 0); lists];
+        for list in (0..count).filter_map(&list_of) {
+            spans[list].1 += 1;
+        }
+        let mut start = 0;
+        for span in &mut spans {
+            let length = std::mem::replace(span, (start, 0)).1;
+            start += length;
+        }
+        let mut grouped = Self {
+            spans,
+            items: vec![0; start as usize],
+        };
+        for item in 0..count {
+            if let Some(list) = list_of(item) {
+                grouped.push(list, item as u32);
+            }
+        }
+        grouped
+    }
+
     /// As many lists with as much room, nothing in them.
     pub fn emptied(&self) -> Self {
         Self {
@@ -28,6 +51,12 @@ impl Lists {
     pub fn get(&self, list: usize) -> &[u32] {
         let (start, length) = self.spans[list];
         &self.items[start as usize..][..length as usize]
+    }
+
+    /// A list to be put in another order.
+    pub fn get_mut(&mut self, list: usize) -> &mut [u32] {
+        let (start, length) = self.spans[list];
+        &mut self.items[start as usize..][..length as usize]
     }
 
     /// Empties a list.
@@ -84,5 +113,17 @@ mod tests {
         assert!(emptied.get(0).is_empty());
         emptied.push(2, 8);
         assert_eq!(emptied.get(2), [8]);
+    }
+
+    #[test]
+    fn numbers_are_grouped_in_order() {
+        let of = |item| [Some(2), None, Some(0), Some(2), Some(0)][item];
+        let mut lists = Lists::grouped(3, 5, of);
+        assert_eq!(
+            [lists.get(0), lists.get(1), lists.get(2)],
+            [&[2, 4][..], &[], &[0, 3]]
+        );
+        lists.get_mut(2).reverse();
+        assert_eq!(lists.get(2), [3, 0]);
     }
 }

@@ -21,40 +21,39 @@ pub(super) fn pivot_matching(pattern: &Pattern) -> Vec<u32> {
     let mut partner: Vec<u32> = (0..n as u32).collect();
     // The variables of each row.
     let mut start = vec![0_u32; n - primal + 1];
-    let between = || {
-        pattern
-            .entries()
-            .filter(|&(row, column)| row >= primal && column < primal)
+    let multipliers = |column: usize| {
+        let rows = pattern.column(column).iter();
+        rows.filter_map(|&row| (row as usize).checked_sub(primal))
     };
-    for (row, _) in between() {
-        start[row - primal + 1] += 1;
+    for row in (0..primal).flat_map(multipliers) {
+        start[row + 1] += 1;
     }
     for row in 0..n - primal {
         start[row + 1] += start[row];
     }
     let mut fill = start.clone();
     let mut variables = vec![0_u32; start[n - primal] as usize];
-    for (row, column) in between() {
-        let place = &mut fill[row - primal];
-        variables[*place as usize] = column as u32;
-        *place += 1;
+    for column in 0..primal {
+        for row in multipliers(column) {
+            let place = &mut fill[row];
+            variables[*place as usize] = column as u32;
+            *place += 1;
+        }
     }
     let mean = variables.len() / (n - primal).max(1);
-    let is_long = |r: u32| {
-        let length = (start[r as usize + 1] - start[r as usize]) as usize;
-        length > LEAST_LONG.max(LONG * mean)
-    };
+    let longest = LEAST_LONG.max(LONG * mean) as u32;
+    let is_long = |r: usize| start[r + 1] - start[r] > longest;
     // The number of multipliers' rows that each variable stands in, long ones apart.
     let mut rows_of = vec![0_u32; primal];
-    for (row, column) in between() {
-        rows_of[column] += u32::from(!is_long((row - primal) as u32));
+    for (column, rows_of) in rows_of.iter_mut().enumerate() {
+        *rows_of = multipliers(column).filter(|&row| !is_long(row)).count() as u32;
     }
-    let mut order: Vec<u32> = (0..(n - primal) as u32).collect();
-    let row = |r: u32| &variables[start[r as usize] as usize..start[r as usize + 1] as usize];
-    let least = |r: u32| row(r).iter().map(|&v| rows_of[v as usize]).min();
-    order.sort_by_key(|&r| least(r).unwrap_or(u32::MAX));
+    let mut order: Vec<usize> = (0..n - primal).collect();
+    let row = |r: usize| &variables[start[r] as usize..start[r + 1] as usize];
+    let least = |r: usize| row(r).iter().map(|&v| rows_of[v as usize]).min();
+    order.sort_by_cached_key(|&r| least(r).unwrap_or(u32::MAX));
     for r in order {
-        let multiplier = primal as u32 + r;
+        let multiplier = (primal + r) as u32;
         let free = row(r)
             .iter()
             .copied()

@@ -130,8 +130,32 @@ struct Quotient<'a> {
     current: Vec<u32>,
     /// Nodes eliminated with it.
     pivots: Vec<u32>,
+    /// What lies beside each variable of the current element.
+    beside: Vec<Beside>,
     /// (hash, variable) of the current element.
     hashes: Vec<(u32, u32)>,
+}
+
+/// What lies beside a variable, the current element apart.
+#[derive(Clone, Copy)]
+struct Beside {
+    /// Weight, that of elements' variables counted for each element.
+    weight: u32,
+    /// Sums of the variables and of the elements in its lists, to tell lists apart by.
+    variables: u32,
+    elements: u32,
+}
+
+impl Beside {
+    fn is_empty(self) -> bool {
+        self.weight == 0
+    }
+
+    /// With the current element, which is that of `pivot`.
+    fn hash(self, pivot: usize) -> u32 {
+        let elements = self.elements.wrapping_add(pivot as u32);
+        self.variables.wrapping_mul(31).wrapping_add(elements)
+    }
 }
 
 impl<'a> Quotient<'a> {
@@ -168,6 +192,7 @@ impl<'a> Quotient<'a> {
             fronts: AssemblyTree::default(),
             current: Vec::new(),
             pivots: Vec::new(),
+            beside: Vec::new(),
             hashes: Vec::new(),
             weight,
         };
@@ -252,21 +277,21 @@ impl<'a> Quotient<'a> {
         let mut pivots = std::mem::take(&mut self.pivots);
         pivots.clear();
         pivots.extend(Self::nodes(&self.joined, pivot as u32));
+        self.beside.clear();
 
         // Mass elimination: a variable with no neighbour but this element is eliminated with it.
         members.retain(|&member| {
             let variable = member as usize;
-            self.prune(variable, pivot, index, stamp);
-            let alone =
-                self.elements.get(variable).is_empty() && self.variables.get(variable).is_empty();
-            if alone && self.stage[variable] == self.stage[pivot] {
+            self.remove(variable);
+            let beside = self.prune(variable, pivot, index, stamp);
+            if beside.is_empty() && self.stage[variable] == self.stage[pivot] {
                 pivots.extend(Self::nodes(&self.joined, member));
-                self.remove(variable);
                 size -= self.weight[variable];
                 self.left -= self.weight[variable];
                 self.weight[variable] = 0;
                 return false;
             }
+            self.beside.push(beside);
             true
         });
         self.fronts.pivots.add(pivots.iter().copied());
@@ -335,58 +360,55 @@ impl<'a> Quotient<'a> {
         stamp
     }
 
-    /// Removes from a member's lists what the new element covers.
-    fn prune(&mut self, variable: usize, pivot: usize, index: usize, stamp: u32) {
+    /// Removes from a member's lists what the new element covers; returns what is left.
+    fn prune(&mut self, variable: usize, pivot: usize, index: usize, stamp: u32) -> Beside {
         let (front, outside) = (&mut self.front, &self.outside);
         let parents = &mut self.fronts.parents;
+        let (mut beside, mut elements, mut variables) = (0, 0_u32, 0_u32);
         self.elements.retain(variable, |element| {
             let e = element as usize;
             if front[e] == NONE {
                 return false;
             }
-            if outside[e].1 == 0 {
+            let weight = outside[e].1;
+            if weight == 0 {
                 // Element absorption: all its variables are in the new element.
                 let front = std::mem::replace(&mut front[e], NONE);
                 parents[front as usize] = Some(index);
                 return false;
             }
+            beside += weight;
+            elements = elements.wrapping_add(element);
             true
         });
         let (mark, weight) = (&self.mark, &self.weight);
         self.variables.retain(variable, |other| {
-            let other = other as usize;
-            other != pivot && weight[other] > 0 && mark[other] != stamp
+            let o = other as usize;
+            let stays = o != pivot && weight[o] > 0 && mark[o] != stamp;
+            if stays {
+                beside += weight[o];
+                variables = variables.wrapping_add(other);
+            }
+            stays
         });
+        Beside {
+            weight: beside,
+            variables,
+            elements,
+        }
     }
 
     fn update_degrees(&mut self, members: &[u32], pivot: usize, size: u32) {
         self.hashes.clear();
-        for &member in members {
+        for (&member, beside) in members.iter().zip(&self.beside) {
             let variable = member as usize;
-            self.remove(variable);
             let others = size - self.weight[variable];
-            let beside: u32 = self
-                .variables
-                .get(variable)
-                .iter()
-                .map(|&v| self.weight[v as usize])
-                .sum();
-            let outside: u32 = self
-                .elements
-                .get(variable)
-                .iter()
-                .map(|&e| self.outside[e as usize].1)
-                .sum();
             let bound = self.left - self.weight[variable];
-            self.degree[variable] = (beside + others + outside)
+            self.degree[variable] = (beside.weight + others)
                 .min(self.degree[variable] + others)
                 .min(bound);
             self.elements.push(variable, pivot as u32);
-            let sum = |list: &[u32]| list.iter().fold(0_u32, |sum, &v| sum.wrapping_add(v));
-            let hash = sum(self.variables.get(variable))
-                .wrapping_mul(31)
-                .wrapping_add(sum(self.elements.get(variable)));
-            self.hashes.push((hash, member));
+            self.hashes.push((beside.hash(pivot), member));
         }
     }
 

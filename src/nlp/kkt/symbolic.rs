@@ -3,6 +3,7 @@
 
 use super::amalgamation::{self, MergedFront};
 use super::graph::Graph;
+use super::lists::Lists;
 use super::simd::padded;
 use super::{Pattern, dissection, matching, ordering, partition};
 use std::ops::Range;
@@ -119,19 +120,27 @@ impl Symbolic {
 
     /// Fronts with their unknowns and children.
     fn lay_out(&mut self, merged: &[MergedFront], position: &[u32]) {
-        let mut children: Vec<Vec<u32>> = vec![Vec::new(); merged.len()];
+        let children = Lists::grouped(merged.len(), merged.len(), |front| merged[front].parent);
+        let unknowns: Vec<u32> = merged.iter().flat_map(|of| &of.pivots).copied().collect();
+        let rows = merged.iter().map(|of| of.pivots.len() + of.border.len());
+        self.rows.reserve(rows.sum());
+        self.children.reserve(merged.len());
         for (index, front) in merged.iter().enumerate() {
-            if let Some(parent) = front.parent {
-                children[parent].push(index as u32);
-            }
             let rows = self.rows.len();
             self.rows.extend(&front.pivots);
             let border = self.rows.len();
-            self.rows.extend(&front.border);
-            self.rows[border..].sort_unstable_by_key(|&unknown| position[unknown as usize]);
+            let places = front
+                .border
+                .iter()
+                .map(|&unknown| position[unknown as usize]);
+            self.rows.extend(places);
+            self.rows[border..].sort_unstable();
+            for row in &mut self.rows[border..] {
+                *row = unknowns[*row as usize];
+            }
             let (c, b) = (front.pivots.len(), front.border.len());
             let first_child = self.children.len();
-            self.children.extend(&children[index]);
+            self.children.extend(children.get(index));
             self.fronts.push(Front {
                 rows,
                 pivots: c,
