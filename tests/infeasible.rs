@@ -9,7 +9,7 @@ use ffsm_ipopt::nlp::Control;
 use ffsm_ipopt::ocp::Interval;
 use ffsm_ipopt::planner::floor::{Certainty, Connection, Grid};
 use ffsm_ipopt::planner::{Event, Planner, Status, plan};
-use ffsm_ipopt::problem::Problem;
+use ffsm_ipopt::problem::{Problem, ProblemBuilder};
 use std::f64::consts::PI;
 use std::path::Path;
 use std::time::Duration;
@@ -120,6 +120,43 @@ fn a_limit_on_the_joints_is_named_too() {
             .iter()
             .all(|l| l.excess > 0.0 && l.smallest_bound.upper > l.bound.upper)
     );
+}
+
+#[test]
+fn limits_that_no_motion_keeps_are_relaxed_at_once() {
+    // With those on the base alone no motion would be found, which is known before any solve.
+    type Limits = fn(&mut ProblemBuilder) -> &mut Vec<Interval>;
+    let limits: [(&str, Limits); 3] = [
+        ("limits.torque", |problem| &mut problem.limits.torque),
+        ("limits.control", |problem| &mut problem.limits.control),
+        ("limits.joint_velocity", |problem| {
+            &mut problem.limits.joint_velocity
+        }),
+    ];
+    for (key, of) in limits {
+        let problem = problems::relaxed()
+            .edited(|problem| *of(problem) = vec![Interval::symmetric(0.0); 2])
+            .unwrap();
+        let mut most = Vec::new();
+        let plan = Planner::new()
+            .plan_with(&problem, None, &mut |event| {
+                if let Event::Diagnosing { of, .. } = event {
+                    most.push(*of);
+                }
+                Control::Continue
+            })
+            .unwrap();
+        assert_eq!(plan.status, Status::Infeasible, "{key}");
+        let one_search = most.iter().all(|of| *of == most[0]);
+        assert!(!most.is_empty() && one_search, "{key}: {most:?}");
+        let diagnosis = plan.diagnosis.expect("a diagnosis");
+        assert!(diagnosis.converged, "{key}");
+        let named: Vec<_> = diagnosis.limits.iter().map(|l| l.limit.key()).collect();
+        assert_eq!(named, [key; 2]);
+        for limit in &diagnosis.limits {
+            assert!(limit.smallest_bound.upper > 1e-4, "{limit:?}");
+        }
+    }
 }
 
 #[test]

@@ -72,6 +72,7 @@ pub use trajectory::{at_fractions, limited_angles, resampled};
 pub(crate) use dispatch::with_system;
 pub(crate) use goal_errors::goal_errors_in;
 pub(crate) use guess::{JointPath, along};
+pub(crate) use impossible::never_kept;
 pub(crate) use metrics::metrics;
 pub(crate) use quintic::quintic;
 pub(crate) use rows::{ROTATION_ANGLE, of_joint};

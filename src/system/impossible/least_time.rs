@@ -40,6 +40,21 @@ pub(super) fn reasons<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<Im
     found
 }
 
+/// The limits that no duration is long enough for: those of zero.
+pub(super) fn endless<Sp: Space>(problem: &Problem, plant: &Plant<Sp>) -> Vec<LimitId> {
+    let stops = Stops::of(problem);
+    let pushes = pushes(problem, plant);
+    let unstopped = pushes.iter().filter(|push| push.never_stops());
+    let mut found: Vec<LimitId> = unstopped.map(|push| push.limit).collect();
+    for leg in (0..plant.joints()).flat_map(|joint| stops.legs(problem, joint)) {
+        let least = leg.least_times(problem, &stops, &pushes);
+        let endless = least.filter(|(_, least)| *least == f64::INFINITY);
+        found.extend(endless.map(|(limit, _)| limit));
+    }
+    found.dedup();
+    found
+}
+
 /// When the task says where the arm is, as parts of the duration.
 struct Stops {
     fractions: Vec<f64>,
@@ -97,6 +112,11 @@ struct Push {
 }
 
 impl Push {
+    /// Whether the arm moves at the start, by a known amount, and cannot be slowed.
+    fn never_stops(&self) -> bool {
+        self.slope == 0.0 && self.speeds[0] > 0.0 && self.speeds[0].is_finite()
+    }
+
     /// Whether the arm cannot come to rest within `available` seconds.
     fn too_short_to_stop(&self, available: f64) -> Option<Impossible> {
         let least = self.speeds[0] / self.slope;
@@ -187,12 +207,8 @@ impl Leg {
     /// Whether there is too little time for it, for whichever limit it takes longest.
     fn too_short(&self, problem: &Problem, stops: &Stops, pushes: &[Push]) -> Option<Impossible> {
         let duration = problem.task.duration.upper;
-        let alone = (LimitId::JointVelocity, None);
-        let pushed = pushes.iter().map(|push| (push.limit, Some(push)));
-        let (limit, least) = [alone]
-            .into_iter()
-            .chain(pushed)
-            .map(|(limit, push)| (limit, self.least(problem, stops, push)))
+        let (limit, least) = self
+            .least_times(problem, stops, pushes)
             .filter(|(_, least)| least.is_finite())
             .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
         let part = stops.fractions[self.stops[1]] - stops.fractions[self.stops[0]];
@@ -207,6 +223,19 @@ impl Leg {
             least: part * least,
             available: part * duration,
         })
+    }
+
+    /// The least duration by each limit.
+    fn least_times(
+        &self,
+        problem: &Problem,
+        stops: &Stops,
+        pushes: &[Push],
+    ) -> impl Iterator<Item = (LimitId, f64)> {
+        let alone = (LimitId::JointVelocity, None);
+        let pushed = pushes.iter().map(|push| (push.limit, Some(push)));
+        let limits = [alone].into_iter().chain(pushed);
+        limits.map(|(limit, push)| (limit, self.least(problem, stops, push)))
     }
 
     /// The least duration in which it can be gone: no longer than that of the task where it can be

@@ -14,7 +14,9 @@ mod ramp;
 mod reach;
 
 use super::dispatch::{System, with_system};
-use crate::problem::{Impossible, Problem};
+use super::free_floating::FreeFloating;
+use crate::dynamics::space::Space;
+use crate::problem::{Impossible, LimitId, Problem};
 
 /// Every reason found why no motion can carry out the task of `problem`; empty where there is none.
 ///
@@ -27,4 +29,10 @@ pub fn impossible(problem: &Problem) -> Vec<Impossible> {
         found.extend(displacement::reasons(problem, &system.plant));
         found
     })
+}
+
+/// The limits on the joints that no motion keeps which the task asks for, whatever the duration: those
+/// of zero. One may be named twice.
+pub(crate) fn never_kept<Sp: Space>(problem: &Problem, system: &FreeFloating<Sp>) -> Vec<LimitId> {
+    least_time::endless(problem, &system.plant)
 }

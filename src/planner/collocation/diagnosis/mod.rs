@@ -14,7 +14,7 @@ use crate::nlp::{Control, Deadline, Statistics};
 use crate::planner::words::cannot_hold;
 use crate::planner::{Diagnosis, Event, LimitFinding, PlanError, floor};
 use crate::problem::Problem;
-use crate::system::{ElasticLimit, FreeFloating};
+use crate::system::{self, ElasticLimit, FreeFloating};
 use crate::transcription::Discretization;
 use search::{Found, Search};
 
@@ -43,7 +43,7 @@ pub(super) struct Diagnosed {
 /// Solves `problem` with elastic limits from many starts.
 ///
 /// Limits on the base are requirements, limits on the joints are hardware: only where relaxing
-/// the former leads to no motion are the latter relaxed as well.
+/// the former leads to no motion are the latter relaxed as well, but for those that no motion keeps.
 pub(super) fn diagnose<Sp: Space>(
     problem: &Problem,
     system: &FreeFloating<Sp>,
@@ -52,8 +52,13 @@ pub(super) fn diagnose<Sp: Space>(
     monitor: &mut dyn FnMut(&Event<'_>) -> Control,
 ) -> Result<Diagnosed, PlanError> {
     let limits = system.elastic_limits();
-    let on_base = |limit: &&ElasticLimit| limit.id.limit.is_on_base();
-    let base: Vec<ElasticLimit> = limits.iter().filter(on_base).cloned().collect();
+    // To relax those on the base alone is for nothing where others are known to be in the way.
+    let never_kept = system::never_kept(problem, system);
+    let is_first = |limit: &&ElasticLimit| {
+        let limit = limit.id.limit;
+        limit.is_on_base() || never_kept.contains(&limit)
+    };
+    let first: Vec<ElasticLimit> = limits.iter().filter(is_first).cloned().collect();
     let mut search = Search {
         problem,
         system,
@@ -63,7 +68,7 @@ pub(super) fn diagnose<Sp: Space>(
         statistics: Statistics::default(),
         tried: 0,
     };
-    let found = least(&mut search, base, limits)?;
+    let found = least(&mut search, first, limits)?;
     let found = match found {
         Some(found) => Some(looked_closer(&mut search, found)?),
         None => None,
@@ -108,13 +113,13 @@ pub(super) fn diagnose<Sp: Space>(
     })
 }
 
-/// The least excess of limits on the base alone, and of all `limits` where that leads to no motion.
+/// The least excess of the limits `first` alone, and of all `limits` where that leads to no motion.
 fn least<Sp: Space>(
     search: &mut Search<'_, '_, Sp>,
-    base: Vec<ElasticLimit>,
+    first: Vec<ElasticLimit>,
     limits: Vec<ElasticLimit>,
 ) -> Result<Option<Found>, PlanError> {
-    let found = search.run(base)?;
+    let found = search.run(first)?;
     if found.as_ref().is_some_and(|found| !found.is_no_motion()) {
         return Ok(found);
     }
