@@ -1,8 +1,14 @@
 //! The bridge from Ipopt to the multifrontal solver: it serves the calls that Ipopt makes to HSL_MA97.
 //!
-//! The handles that Ipopt keeps are boxes of this file. There is no state outside them but what each
-//! thread counts of its solve. No panic crosses C: it is caught, and Ipopt is told that the
-//! factorisation failed.
+//! The handles that Ipopt keeps are boxes of `analyses`. There is no state outside them but what each
+//! thread counts of its solve and keeps for the next one. No panic crosses C: it is caught, and Ipopt
+//! is told that the factorisation failed.
+//!
+//! | file | does |
+//! | --- | --- |
+//! | `analyses` | an analysis with its factors, kept by each thread for the next solve |
+//! | `session` | what a thread counts of its solve |
+//! | `record` | the systems of a solve, for benchmarks and tests |
 //!
 //! Derived in docs/algorithms.md#ma97-interface.
 
@@ -11,25 +17,26 @@
     reason = "functions that C calls with pointers, by the interface of HSL_MA97"
 )]
 
-use super::trouble::Trouble;
-use crate::nlp::kkt::{Factors, Growth, Inertia, Pattern, Symbolic};
+mod analyses;
+mod record;
+mod session;
+
+pub use record::{KktSystem, record};
+pub(super) use session::{Session, with_trouble};
+
+use crate::nlp::kkt::{Growth, Pattern};
+use analyses::Analysis;
 use ipopt_sys::ma97::{self, Control, Info, Reached, Routines};
-use std::cell::RefCell;
+use session::hsl;
 use std::ffi::{c_double, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::slice::{from_raw_parts, from_raw_parts_mut};
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Flag of a singular matrix.
 const SINGULAR: c_int = 7;
 /// Flag of any failure.
 const FAILED: c_int = -1;
-
-/// Analyses that a thread keeps for the next programme with the same structure.
-const KEPT: usize = 4;
-/// An analysis whose factors have more numbers than this is not kept.
-const LARGEST_KEPT: usize = 1 << 20;
 
 /// Registers these functions as HSL_MA97; returns how Ipopt reaches them.
 ///
@@ -47,129 +54,6 @@ pub(super) fn register() -> Result<Reached, String> {
     })
 }
 
-/// What the calls of one solve come to.
-#[derive(Debug, Default)]
-pub(super) struct Count {
-    /// Time in analyses, factorisations and solutions.
-    pub time: Duration,
-    /// Whether a call has failed.
-    pub failed: bool,
-    /// Systems that were singular, and factors that grew.
-    pub trouble: Trouble,
-    /// The routines of the real HSL_MA97, where all calls go to them.
-    hsl: Option<Routines>,
-}
-
-/// A KKT system: one factorisation that Ipopt asked for, with the right-hand sides.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct KktSystem {
-    /// The analysis in use.
-    pub symbolic: Arc<Symbolic>,
-    /// Values of the pattern's entries.
-    pub values: Vec<f64>,
-    /// Pivot threshold.
-    pub threshold: f64,
-    /// The inertia found.
-    pub inertia: Inertia,
-    /// Right-hand sides, in the order of the solutions.
-    pub right_hand_sides: Vec<Vec<f64>>,
-}
-
-thread_local! {
-    static COUNT: RefCell<Count> = RefCell::default();
-    static ANALYSES: RefCell<Vec<Analysis>> = const { RefCell::new(Vec::new()) };
-    static RECORD: RefCell<Option<Vec<KktSystem>>> = const { RefCell::new(None) };
-}
-
-/// Runs `body` and returns the systems that the multifrontal solver was given in it, on this thread.
-///
-/// For benchmarks and tests: it costs a copy of every matrix.
-pub fn record<T>(body: impl FnOnce() -> T) -> (T, Vec<KktSystem>) {
-    RECORD.set(Some(Vec::new()));
-    let result = body();
-    (result, RECORD.take().unwrap_or_default())
-}
-
-/// One solve on this thread: its calls are counted from `begin` to `end`.
-pub(super) struct Session {
-    /// The count of the solve that this one is nested in.
-    outer: Option<Count>,
-}
-
-impl Session {
-    pub(super) fn begin(hsl: Option<Routines>) -> Self {
-        let count = Count {
-            hsl,
-            ..Count::default()
-        };
-        Self {
-            outer: Some(COUNT.replace(count)),
-        }
-    }
-
-    pub(super) fn end(mut self) -> Count {
-        COUNT.replace(self.outer.take().unwrap_or_default())
-    }
-}
-
-impl Drop for Session {
-    fn drop(&mut self) {
-        if let Some(outer) = self.outer.take() {
-            COUNT.set(outer);
-        }
-    }
-}
-
-/// The trouble that this thread's solve has met so far, to be noted at the end of each iteration.
-pub(super) fn with_trouble<T>(body: impl FnOnce(&mut Trouble) -> T) -> T {
-    COUNT.with_borrow_mut(|count| body(&mut count.trouble))
-}
-
-/// An analysis, and the factors of the last matrix with its pattern.
-struct Analysis {
-    symbolic: Arc<Symbolic>,
-    factors: Factors,
-    growth: Growth,
-}
-
-impl Analysis {
-    /// The analysis of `pattern`: one that this thread has kept, or a new one.
-    fn of(pattern: Pattern) -> Self {
-        let kept = ANALYSES.with_borrow_mut(|kept| {
-            let known = kept
-                .iter()
-                .position(|analysis| *analysis.symbolic.pattern() == pattern);
-            known.map(|index| kept.remove(index))
-        });
-        kept.unwrap_or_else(|| {
-            let symbolic = Symbolic::new(pattern);
-            Self {
-                factors: Factors::new(&symbolic),
-                symbolic: Arc::new(symbolic),
-                growth: Growth::default(),
-            }
-        })
-    }
-
-    /// Keeps this analysis for the next solve with its pattern, unless it is large.
-    fn keep(mut self) {
-        // What was found in this solve is not to change the next one.
-        self.growth = Growth::default();
-        if self.symbolic.factor_size() > LARGEST_KEPT {
-            return;
-        }
-        // This fails while the thread ends, and then nothing is kept.
-        let _ = ANALYSES.try_with(|kept| {
-            let mut kept = kept.borrow_mut();
-            if kept.len() == KEPT {
-                kept.remove(0);
-            }
-            kept.push(self);
-        });
-    }
-}
-
 /// A call that cannot be served.
 struct Failed;
 
@@ -181,21 +65,13 @@ unsafe fn serve(info: *mut Info, body: impl FnOnce() -> Result<Info, Failed>) {
     let begin = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(body));
     let found = outcome.ok().and_then(Result::ok);
-    COUNT.with_borrow_mut(|count| {
-        count.time += begin.elapsed();
-        count.failed |= found.is_none();
-    });
+    session::served(begin.elapsed(), found.is_none());
     let found = found.unwrap_or_else(|| Info {
         flag: FAILED,
         ..empty()
     });
     // SAFETY: the caller's promise.
     unsafe { *info = found };
-}
-
-/// The routines of the real HSL_MA97, where this solve is to use them.
-fn hsl() -> Option<Routines> {
-    COUNT.with_borrow(|count| count.hsl)
 }
 
 fn empty() -> Info {
@@ -327,16 +203,12 @@ fn factorise(analysis: &mut Analysis, values: &[f64], control: &Control) -> Resu
     if inertia.zero > 0 {
         info.flag = SINGULAR;
     }
-    RECORD.with_borrow_mut(|record| {
-        if let Some(record) = record {
-            record.push(KktSystem {
-                symbolic: symbolic.clone(),
-                values: values.to_vec(),
-                threshold: control.u,
-                inertia,
-                right_hand_sides: Vec::new(),
-            });
-        }
+    record::factorised(|| KktSystem {
+        symbolic: symbolic.clone(),
+        values: values.to_vec(),
+        threshold: control.u,
+        inertia,
+        right_hand_sides: Vec::new(),
     });
     Ok(info)
 }
@@ -463,11 +335,7 @@ unsafe extern "C" fn solve(
         for right in 0..nrhs as usize {
             // SAFETY: Ipopt passes `nrhs` right-hand sides, `ldx` apart, as long as the matrix.
             let x = unsafe { from_raw_parts_mut(x.add(right * ldx as usize), symbolic.len()) };
-            RECORD.with_borrow_mut(|record| {
-                if let Some(system) = record.as_mut().and_then(|all| all.last_mut()) {
-                    system.right_hand_sides.push(x.to_vec());
-                }
-            });
+            record::asked(x);
             factors.solve(symbolic, x);
         }
         Ok(empty())
