@@ -10,8 +10,8 @@ use crate::reproduction::{ReproductionError, Session};
 use crate::system::straight_line;
 use serde::Serialize;
 
-/// Angles and steps of the dynamic programme together, angles 3° apart over the paper's joint limits.
-const WORK: f64 = 1.28e6;
+/// Angles and steps of the dynamic programme together, angles 1.5° apart over the paper's joint limits.
+const WORK: f64 = 1e7;
 /// Range of the smallest bound, rad, and its accuracy, a part of it.
 const SOUGHT: [f64; 2] = [0.0, std::f64::consts::FRAC_PI_2];
 const ACCURACY: f64 = 5e-4;
@@ -33,11 +33,14 @@ pub struct Bounds {
     pub box_loop: f64,
     /// What one loop within the joint limits gains at most, in either sense.
     pub best_loops: [f64; 2],
-    /// The final attitude nearest to zero that dynamic programming finds, without a bound along
-    /// the path: no motion ends nearer, up to the grid's error.
+    /// The final attitude nearest to zero by dynamic programming, without a bound along the path.
     pub nearest_final_by_grid: f64,
+    /// The same with what may lie between the angles of the grid: no motion ends nearer.
+    pub nearest_final_proven: f64,
     /// The smallest bound along the path and at t_f by dynamic programming.
     pub smallest_bound_by_grid: f64,
+    /// The same with what may lie between the angles of the grid: no motion keeps a smaller one.
+    pub smallest_bound_proven: f64,
     /// The final attitude nearest to zero by optimal control, without a bound along the path.
     pub nearest_final_by_control: Option<f64>,
     /// Largest error (28) of that motion.
@@ -119,19 +122,9 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
         .map(|connection| connection.over(corner(0), corner(1), CELLS));
     session.begin("dynamic programme over the joint angles")?;
     let grid = Grid::new(problem, WORK);
-    let (nearest, smallest) = grid.map_or((f64::NAN, f64::NAN), |grid| {
-        let [low, high] = grid.reachable(f64::INFINITY, Certainty::Estimate);
-        let nearest = if low <= 0.0 && high >= 0.0 {
-            0.0
-        } else if low.abs() < high.abs() {
-            low
-        } else {
-            high
-        };
-        (
-            nearest,
-            grid.smallest_bound(SOUGHT, ACCURACY, Certainty::Estimate),
-        )
+    let [by_grid, proven] = [Certainty::Estimate, Certainty::Bound].map(|certainty| {
+        grid.as_ref()
+            .map_or([f64::NAN; 2], |grid| least_turn(grid, certainty))
     });
     let reached = largest_final_attitude(session, problem)?;
     let curvature = curvature.unwrap_or(CurvatureBound {
@@ -150,8 +143,10 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
         largest_curvature_at: curvature.at.map(f64::to_degrees),
         box_loop: curvature.box_loop.to_degrees(),
         best_loops: curvature.parts.map(f64::to_degrees),
-        nearest_final_by_grid: nearest.to_degrees(),
-        smallest_bound_by_grid: smallest.to_degrees(),
+        nearest_final_by_grid: by_grid[0].to_degrees(),
+        nearest_final_proven: proven[0].to_degrees(),
+        smallest_bound_by_grid: by_grid[1].to_degrees(),
+        smallest_bound_proven: proven[1].to_degrees(),
         nearest_final_by_control: reached
             .map(|Reached { final_attitude, .. }| final_attitude.to_degrees()),
         largest_on_the_way: reached.map(|reached| reached.largest_attitude.to_degrees()),
@@ -166,6 +161,19 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
         bounded_error: error,
     };
     Ok((evidence, case))
+}
+
+/// The final attitude nearest to zero, and the smallest bound along the path and at t_f, rad.
+fn least_turn(grid: &Grid, certainty: Certainty) -> [f64; 2] {
+    let [low, high] = grid.reachable(f64::INFINITY, certainty);
+    let nearest = if low <= 0.0 && high >= 0.0 {
+        0.0
+    } else if low.abs() < high.abs() {
+        low
+    } else {
+        high
+    };
+    [nearest, grid.smallest_bound(SOUGHT, ACCURACY, certainty)]
 }
 
 /// The evidence in words.
@@ -184,9 +192,10 @@ pub fn markdown(found: &Bounds) -> String {
          magnitude is {:.4} at most, at θ = ({}, {}). A loop along the joint limits turns the base \
          by {}; the best loop within them gains {} in one sense and {} in the other. A loop along \
          the limits takes each joint 2π rad, one after the other, 14 s at 0.9 rad/s.\n\
-         - Dynamic programming over the joint angles (3° apart, rates up to 0.9 rad/s, no limit on \
-         acceleration, so that it can only be too optimistic) ends at {} without a bound along the \
-         path. With the bound along the path and at t_f it needs ±{}.\n\
+         - Dynamic programming over the joint angles (1.5° apart, rates up to 0.9 rad/s, no limit on \
+         acceleration) ends at {} without a bound along the path. With the bound along the path and \
+         at t_f it needs ±{}. What may lie between its angles added, it is a proof that no motion \
+         ends nearer than {} and none keeps less than ±{}.\n\
          - Optimal control with η(t_f)² as its cost, no bound along the path, from {} starts ({} \
          ended at an optimum), ends at {} at best, and passes through {} on the way (largest error \
          {}).\n\
@@ -205,6 +214,8 @@ pub fn markdown(found: &Bounds) -> String {
         degrees(found.best_loops[1]),
         degrees(found.nearest_final_by_grid),
         degrees(found.smallest_bound_by_grid),
+        degrees(found.nearest_final_proven),
+        degrees(found.smallest_bound_proven),
         found.starts[0],
         found.starts[1],
         optional(found.nearest_final_by_control),

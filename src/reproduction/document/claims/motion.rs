@@ -20,10 +20,10 @@ pub(super) fn feasible(found: &Findings) -> Claim {
         published: "15°",
         ours: format!(
             "{} at least (dynamic programming); {} found to work",
-            degrees(bounds.smallest_bound_by_grid),
+            degrees(bounds.smallest_bound_proven),
             optional(bounds.smallest_bound_by_diagnosis)
         ),
-        verdict: Verdict::whether(bounds.smallest_bound_by_grid <= bounds.published_bound),
+        verdict: Verdict::whether(bounds.smallest_bound_proven <= bounds.published_bound),
         why: format!("momentum conservation with Table I, see below{heavier}"),
         check: &[
             "ffsm-ipopt plan config/table1.toml",
@@ -80,7 +80,7 @@ pub(super) fn motion(found: &Findings) -> Vec<Claim> {
             why: format!(
                 "no motion with Table I ends nearer than {} (dynamic programming); 0.35 rad would be \
                  {}",
-                degrees(found.bounds.nearest_final_by_grid),
+                degrees(found.bounds.nearest_final_proven),
                 degrees(0.35_f64.to_degrees())
             ),
             check: &["ffsm-ipopt figures", "ffsm-ipopt reproduce bounds"],
