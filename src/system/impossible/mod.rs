@@ -31,8 +31,8 @@ pub fn impossible(problem: &Problem) -> Vec<Impossible> {
     })
 }
 
-/// The limits on the joints that no motion keeps which the task asks for, whatever the duration: those
-/// of zero. One may be named twice.
+/// The limits on the joints that no motion of the task keeps, whatever its duration: those of zero. One
+/// may be named twice.
 pub(crate) fn never_kept<Sp: Space>(problem: &Problem, system: &FreeFloating<Sp>) -> Vec<LimitId> {
     least_time::endless(problem, &system.plant)
 }
