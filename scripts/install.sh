@@ -59,40 +59,59 @@ check_cargo() {
     die "cargo $have is too old: Rust $need or newer is needed (rustup update stable, or https://rustup.rs)"
 }
 
-# Sets `missing` to the packages that stand for what the probes do not find.
+# Sets `first` and `missing` to the packages that stand for what the probes do not find; fails where there are none.
 find_missing() {
+  first=()
   missing=()
-  have_certificates || missing+=(ca-certificates)
-  have_cc || missing+=(gcc libc6-dev)
+  have_certificates || first+=(ca-certificates)
+  have_cc || first+=(gcc libc6-dev)
   command -v "${PKG_CONFIG:-pkg-config}" >/dev/null || missing+=(pkg-config)
   "${PKG_CONFIG:-pkg-config}" --exists "ipopt >= 3.11" 2>/dev/null || missing+=(coinor-libipopt-dev)
   have_libclang || missing+=(libclang-dev)
+  [ $((${#first[@]} + ${#missing[@]})) != 0 ]
+}
+
+# Starts to build what needs no more than certificates and a linker: most of the dependencies. Where it comes to the
+# bindings before Ipopt is there, it fails without a word; the build that follows waits for it and goes on from there.
+build_meanwhile() {
+  (
+    trap - INT # which background jobs of a script ignore
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    exec cargo build --release --locked --keep-going --bin ffsm-ipopt \
+      2> >(exec grep --line-buffered -E '^ *(Downloaded|Compiling)' >&2)
+  ) </dev/null &
+  building=$!
 }
 
 install_missing() {
-  local sudo=() apt log
+  local sudo=() apt log building=
   command -v apt-get >/dev/null ||
-    die "needed here, by their Debian package names: ${missing[*]} (no apt-get to install them with)"
+    die "needed here, by their Debian package names: ${first[*]} ${missing[*]} (no apt-get to install them with)"
   if [ "$(id -u)" != 0 ]; then
     command -v sudo >/dev/null ||
-      die "not root and no sudo: as root, run apt-get install --no-install-recommends ${missing[*]}"
+      die "not root and no sudo: as root, run apt-get install --no-install-recommends ${first[*]} ${missing[*]}"
     sudo=(sudo)
   fi
-  echo "Installing Debian packages: ${missing[*]}"
+  echo "Installing Debian packages: ${first[*]} ${missing[*]}"
   log=$(mktemp)
   apt=("${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q
     -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3)
-  # An unrelated source that cannot be read fails the update, so only the install decides.
-  if ! { "${apt[@]}" update || true; "${apt[@]}" install -y --no-install-recommends "${missing[@]}"; } \
-    </dev/null >"$log" 2>&1; then
-    tail -n 25 "$log" >&2
-    die "apt-get could not install them; the whole log is $log"
-  fi
-  find_missing
-  [ ${#missing[@]} = 0 ] || die "installed, but still not found: ${missing[*]}; the log is $log"
+  # An unrelated source that cannot be read fails the update, so only the installs decide.
+  "${apt[@]}" update </dev/null >"$log" 2>&1 || true
+  install_packages "${first[@]}"
+  [ ${#missing[@]} = 0 ] || build_meanwhile
+  install_packages "${missing[@]}"
+  ! find_missing || die "installed, but still not found: ${first[*]} ${missing[*]}; the log is $log"
   rm -f "$log"
 }
 
+install_packages() {
+  [ $# != 0 ] || return 0
+  "${apt[@]}" install -y --no-install-recommends "$@" </dev/null >>"$log" 2>&1 && return
+  tail -n 25 "$log" >&2
+  [ -z "$building" ] || kill "$building" 2>/dev/null || true
+  die "apt-get could not install them; the whole log is $log"
+}
+
 check_cargo
-find_missing
-[ ${#missing[@]} = 0 ] || install_missing
+! find_missing || install_missing
