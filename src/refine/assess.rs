@@ -7,7 +7,6 @@ use super::violation::{OVERSHOOT, violations};
 use super::{Bounded, Errors, Settings, Verdict, Violation, midpoint_errors};
 use crate::largest::largest;
 use crate::ocp::DynOcp;
-use crate::transcription::Patterns;
 
 /// Part of its size by which a bound of a state or a row of the states may be exceeded between the
 /// nodes of a mesh that counts.
@@ -41,17 +40,15 @@ pub(super) struct Assessor<'a> {
     ocp: &'a dyn DynOcp,
     settings: &'a Settings,
     /// Whether each path row depends on a control.
-    jumping_rows: Vec<bool>,
+    jumping_rows: &'a [bool],
 }
 
 impl<'a> Assessor<'a> {
-    pub fn new(ocp: &'a dyn DynOcp, patterns: &Patterns, settings: &'a Settings) -> Self {
-        let formulation = ocp.formulation();
-        let jumps = |p| !patterns.path_is_continuous(&formulation, p);
+    pub fn new(ocp: &'a dyn DynOcp, jumping_rows: &'a [bool], settings: &'a Settings) -> Self {
         Self {
             ocp,
             settings,
-            jumping_rows: (0..formulation.path.len()).map(jumps).collect(),
+            jumping_rows,
         }
     }
 

@@ -13,22 +13,29 @@
 //! | `conditioning` | scales, far bounds and patterns, settled after each solve |
 //! | `transfer` | a solution with its multipliers from one mesh to another |
 //! | `start` | where the loop starts from |
-//! | `driver` | the loop |
+//! | `driver` | a problem ready to be solved on one mesh after another |
+//! | `mesh_loop` | the loop over meshes |
 //! | `mesh_solve` | the solve on one mesh |
+//! | `assess`, `objective_error` | what its solution is worth: errors, bounds, the error in J |
+//! | `divergence` | when the errors tell that it leads nowhere |
 //! | `outcome` | where the loop ended |
 //! | `solve` | all of it by one call |
 //! | `start_check`, `failure` | what is asked before the first solve, and why there is none |
+//! | `event` | what a monitor is told |
 //! | `record`, `verdict` | what a mesh iteration came to |
 
 mod assess;
 mod conditioning;
 mod curvature;
+mod divergence;
 mod driver;
 mod error;
+mod event;
 mod facts;
 mod failure;
 mod law;
 mod laws;
+mod mesh_loop;
 mod mesh_solve;
 mod method;
 mod objective_error;
@@ -43,8 +50,9 @@ mod transfer;
 mod verdict;
 mod violation;
 
-pub use driver::{Event, Refinement};
+pub use driver::Refinement;
 pub use error::{Erring, Errors, midpoint_errors};
+pub use event::Event;
 pub use facts::Facts;
 pub use failure::SolveError;
 pub use law::{Assessment, Refined, RefinementLaw};

@@ -2,7 +2,7 @@
 
 use super::start::guessed;
 use super::{Outcome, Refinement, ReleasedCondition, Settings, SolveError, Start, start_check};
-use crate::nlp::{self, Control};
+use crate::nlp::{self, Control, Deadline};
 use crate::ocp::{Dependent, DynOcp, Formulation, Ocp, Released, dependent};
 use crate::transcription::{Discretization, Patterns};
 
@@ -69,6 +69,7 @@ fn begin(
     let formulation = problem.formulation();
     formulation.validate()?;
     settings.mesh.validate()?;
+    let deadline = Deadline::after(settings.solver.time_limit);
     let patterns = Patterns::detect(problem);
     let refinement = Refinement {
         ocp: problem,
@@ -94,7 +95,18 @@ fn begin(
     let mut pairs = dependent.iter().zip(&outcome.released);
     if outcome.converged && !pairs.all(|(of, released)| of.holds(released.found)) {
         // What looked like an invariant is none everywhere.
-        return refinement.run(&start, &mut |_| Control::Continue);
+        let solver = nlp::Settings {
+            time_limit: deadline.remaining(),
+            ..settings.solver.clone()
+        };
+        let all = Refinement {
+            solver: &solver,
+            ..refinement
+        };
+        let mut statistics = outcome.statistics;
+        outcome = all.run(&start, &mut |_| Control::Continue)?;
+        statistics.add(&outcome.statistics);
+        outcome.statistics = statistics;
     }
     Ok(outcome)
 }
