@@ -55,7 +55,7 @@ fn the_published_case_names_the_base_attitude_and_the_smallest_bound() {
     assert!((-17.0..-14.0).contains(&nearest), "{nearest}°");
     assert!(
         smallest > bound - 0.2,
-        "{smallest}° is below what is possible, {bound}°"
+        "{smallest}° is below the estimate of the grid, {bound}°"
     );
     assert!(
         smallest < 1.05 * bound,

@@ -28,7 +28,8 @@ pub enum OptionValue {
 pub struct Settings {
     /// Convergence tolerance of the scaled optimality conditions. Default 1e-9.
     pub tolerance: f64,
-    /// Limit on iterations: of one solve, and in a refinement of all attempts on one mesh together.
+    /// Limit on the iterations of one solve. A refinement may solve on one mesh more than once: where a warm
+    /// start fails within 100 of them, with a wider barrier (300 at most), then without multipliers.
     /// Default 500.
     pub max_iterations: u32,
     /// Limit on the wall time of all that is done with these settings: one solve, a refinement or a

@@ -8,7 +8,7 @@ use crate::dynamics::Model;
 #[non_exhaustive]
 pub struct Cost {
     /// ‖η(t_f)‖², one weight an angle; by quaternion or modified Rodrigues parameters one weight, of
-    /// the squared rotation angle from the start.
+    /// the squared rotation angle out of the axes that the attitude is counted from.
     pub final_base_attitude: Vec<f64>,
     /// ‖ζ(t_f) − ζ(t₀)‖², one weight a length.
     pub final_base_position: Vec<f64>,

@@ -20,7 +20,7 @@ pub struct Limits {
     /// Joint torques, N·m or N; length n.
     pub torque: Vec<Interval>,
     /// Base attitude along the path, rad, eq. (10): one an angle; by quaternion or modified
-    /// Rodrigues parameters one for the rotation angle from the start, symmetric.
+    /// Rodrigues parameters one for the rotation angle out of the axes that it is counted from, symmetric.
     pub base_attitude: Vec<Interval>,
     /// Rates of the base attitude angles, rad/s, one an angle, eq. (10); by quaternion or modified
     /// Rodrigues parameters the angular velocity along each base axis.

@@ -52,7 +52,7 @@ pub(super) fn shares(timing: Timing) -> String {
     )
 }
 
-/// An orientation as the rotation from the start, its axis in inertial axes.
+/// An orientation as one rotation out of the inertial axes, its axis in them.
 pub fn rotation(attitude: SpatialAttitude, eta: &[f64]) -> String {
     let turn = attitude.to_quaternion(eta);
     match turn.axis() {

@@ -71,7 +71,7 @@ impl Drawing<'_> {
         let names: &[&str] = match (self.problem.robot.plane(), turns) {
             (Some(_), _) => &["base"],
             (None, false) => &["roll", "pitch", "yaw"],
-            (None, true) => &["rotation from the start"],
+            (None, true) => &["rotation angle"],
         };
         let limits = &self.problem.limits;
         let subject = Subject {

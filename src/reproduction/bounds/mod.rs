@@ -7,5 +7,5 @@
 mod reach;
 mod report;
 
-pub use reach::{Reached, largest_final_attitude};
+pub use reach::{Reached, nearest_final_attitude};
 pub use report::{Bounds, bounded, bounds, markdown};

@@ -32,7 +32,7 @@ pub struct Reached {
 ///
 /// # Errors
 /// What the solver refuses, and [`ReproductionError::Interrupted`].
-pub fn largest_final_attitude(
+pub fn nearest_final_attitude(
     session: &mut Session<'_>,
     problem: &Problem,
 ) -> Result<Option<Reached>, ReproductionError> {
@@ -74,7 +74,7 @@ pub fn largest_final_attitude(
         solver: &solver,
     };
     let failed = |cause: PlanError| ReproductionError::Plan {
-        title: "largest final attitude".into(),
+        title: "final attitude nearest to zero".into(),
         cause,
     };
     let mesh = settings
@@ -85,7 +85,7 @@ pub fn largest_final_attitude(
     let mut solved = 0;
     for (k, path) in paths.iter().enumerate() {
         session.begin(&format!(
-            "largest final attitude, start {} of {}",
+            "final attitude nearest to zero, start {} of {}",
             k + 1,
             paths.len()
         ))?;
@@ -109,7 +109,7 @@ pub fn largest_final_attitude(
         return Ok(None);
     };
     // What was found on one coarse mesh is refined: between its nodes it need not be a motion.
-    session.begin("largest final attitude, refined")?;
+    session.begin("final attitude nearest to zero, refined")?;
     let settings = refine::Settings {
         max_iterations: Some(5),
         tolerance: 1e-3,

@@ -1,6 +1,6 @@
 //! The evidence together, and in words.
 
-use super::{Reached, largest_final_attitude};
+use super::{Reached, nearest_final_attitude};
 use crate::config::ProblemFile;
 use crate::ocp::Interval;
 use crate::planner::floor::{Certainty, Connection, CurvatureBound, Grid};
@@ -64,7 +64,7 @@ pub struct Bounds {
 /// The published case with both bounds on the base attitude widened to where a motion exists, at
 /// least half a degree beyond what the diagnosis found, refined to an error of 1e-3.
 ///
-/// The diagnosis itself works on one coarse mesh; this shows that what it found is a motion.
+/// A second check, on a mesh of its own: what the diagnosis found is a motion.
 ///
 /// # Errors
 /// Those of [`Session::plan`].
@@ -126,7 +126,7 @@ pub fn bounds(session: &mut Session<'_>) -> Result<(Bounds, Case), ReproductionE
         grid.as_ref()
             .map_or([f64::NAN; 2], |grid| least_turn(grid, certainty))
     });
-    let reached = largest_final_attitude(session, problem)?;
+    let reached = nearest_final_attitude(session, problem)?;
     let curvature = curvature.unwrap_or(CurvatureBound {
         largest: f64::NAN,
         at: [f64::NAN; 2],
@@ -200,9 +200,9 @@ pub fn markdown(found: &Bounds) -> String {
          ended at an optimum), ends at {} at best, and passes through {} on the way (largest error \
          {}).\n\
          - The diagnosis of `plan`, which relaxes both bounds by the same least amount, finds ±{} \
-         to work ({} starts, {} of them feasible), on one coarse mesh. With both bounds at ±{:.0}° the \
-         plan from there, refined, stays within {}, between the nodes as well (largest error \
-         {:.1e}).\n",
+         to work ({} starts, {} of them feasible), refined to the tolerance. With both bounds at \
+         ±{:.0}° the plan from there, refined on other meshes, stays within {}, between the nodes as \
+         well (largest error {:.1e}).\n",
         found.published_bound,
         degrees(found.straight_line),
         degrees(needed),
