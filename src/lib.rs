@@ -3,22 +3,20 @@
 pub mod autodiff;
 pub mod collocation;
 pub mod config;
-mod digits;
 pub mod dynamics;
 pub mod integrate;
-mod largest;
 pub mod nlp;
+mod numeric;
 pub mod parallel;
 pub mod planner;
-mod printable;
 pub mod problem;
 pub mod refine;
 pub mod report;
 pub mod simulate;
 pub mod solution;
-mod split_mix;
 pub mod study;
 pub mod system;
+mod text;
 pub mod transcription;
 pub mod verify;
 

@@ -5,7 +5,6 @@ use super::robot;
 use super::show::{by_name, rounded, show, show_interval};
 use super::{Outcome, terminal};
 use crate::config::{Overrides, ProblemFile};
-use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::SpatialAttitude;
 use crate::ocp::Interval;
@@ -15,6 +14,7 @@ use crate::problem::{
 };
 use crate::report::{Lines, rotation};
 use crate::system::straight_line;
+use crate::text::digits::digits;
 use clap::Args;
 use std::path::PathBuf;
 

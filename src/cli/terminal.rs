@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use crate::nlp::ipopt::interrupt::requested;
-use crate::printable::{one_line, printable};
+use crate::text::printable::{one_line, printable};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 

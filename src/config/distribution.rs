@@ -1,5 +1,6 @@
 //! Distributions of a number, whatever it is for and wherever its random numbers come from.
 
+use crate::numeric::standard_normal;
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -105,11 +106,6 @@ impl fmt::Display for Distribution {
             }
         }
     }
-}
-
-/// A standard normal number from two between 0 and 1, both excluded.
-pub(super) fn standard_normal([radius, turn]: [f64; 2]) -> f64 {
-    (-2.0 * radius.ln()).sqrt() * (TAU * turn).cos()
 }
 
 /// The part of a standard normal distribution between `low` and `high`, to some digits.

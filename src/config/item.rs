@@ -2,7 +2,7 @@
 
 use super::document::{Node, Value};
 use super::{ConfigError, Place};
-use crate::printable::one_line;
+use crate::text::printable::one_line;
 
 /// Largest magnitude of any number: products of several do not overflow.
 const MOST: f64 = 1e30;

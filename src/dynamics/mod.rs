@@ -6,14 +6,19 @@
 //!
 //! | file | computes |
 //! | --- | --- |
-//! | `algebra` | vectors, motions, forces and inertia in the plane and in space |
+//! | `model`, `joint`, `inertia`, `placement`, `mount` | the robot as its maker describes it |
+//! | `planarity`, `massless` | whether it stays in a plane, and whether every joint moves a mass |
+//! | `compile`, `model_tree`, `tree` | from a model to what the recursions read |
+//! | `data`, `storage`, `unrolled` | scratch, its room, loops over few joints unrolled |
+//! | `space`, `algebra` | vectors, motions, forces and inertia in the plane and in space |
 //! | `kinematics` | poses of all bodies, eq. (1) |
 //! | `momentum` | composite rigid bodies, momentum of unit joint rates, base rate, eq. (2), (5) |
 //! | `mass_center` | derivatives of the system's mass centre by the joint positions |
 //! | `mass_matrix` | the reduced inertia matrix H, eq. (6) |
 //! | `bias` | the reduced Coriolis force Cθ̇ by one recursive Newton-Euler pass, eq. (6) |
 //! | `attitude` | the rate map of the base attitude |
-//! | `mounted_frames` | frames fixed in bodies, the end effector's among them |
+//! | `ldl` | LDLᵀ of H and of other small matrices |
+//! | `mounted_frames`, `relative_frames` | frames fixed in bodies, the end effector's among them, and one body's as seen from another |
 //! | `mobility`, `reach` | bounds on H and on the end effector's distance, at all positions |
 //! | `sensitivity` | first and second derivatives of the free motion, by structure |
 //!

@@ -3,8 +3,8 @@
 use super::LimitFinding;
 use super::conditioning::Conditioning;
 use super::words::sentence;
-use crate::digits::digits;
 use crate::problem::Unit;
+use crate::text::digits::digits;
 use crate::verify::VerifyError;
 use std::fmt;
 

@@ -46,7 +46,7 @@ impl Status {
     }
 }
 
-/// One limit that cannot hold.
+/// One limit that cannot hold, or that no motion was found to keep.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LimitFinding {
@@ -64,8 +64,8 @@ pub struct LimitFinding {
     pub excess: f64,
     /// The smallest bound that was found to work, all other limits kept.
     pub smallest_bound: Interval,
-    /// The largest bound of which it is known that no smaller one can work, whatever the other
-    /// limits, as its upper end; `None` where none above the bound as given is known.
+    /// A proven lower bound: no bound below it can work, whatever the other limits. The upper end, same
+    /// unit; `None` where none above `bound` is known.
     pub floor: Option<f64>,
 }
 

@@ -4,7 +4,7 @@ use super::collocation::diagnosis::findings;
 use super::conditioning::most_extreme;
 use super::{Doubt, Plan, Status};
 use crate::dynamics::space::Space;
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::ocp::{Limited, Ocp};
 use crate::problem::{Problem, Unit};
 use crate::system::{FreeFloating, System, with_system};
@@ -178,7 +178,7 @@ fn travel(problem: &Problem, plan: &Discretization) -> f64 {
     let n = problem.robot.joint_count();
     let joints = |k: usize| &plan.state(k)[parameters..parameters + n];
     let ways = (0..=plan.mesh.points()).flat_map(|k| joints(k).iter().zip(joints(0)));
-    largest(ways.map(|(q, start)| (q - start).abs()))
+    largest_or_nan(ways.map(|(q, start)| (q - start).abs()))
 }
 
 /// Whether the plan takes another time than its task gives.

@@ -1,10 +1,10 @@
 //! Limits in words, in degrees and metres.
 
 use super::LimitFinding;
-use crate::digits::digits;
 use crate::ocp::Interval;
 use crate::problem::LimitId;
 use crate::system::Component;
+use crate::text::digits::digits;
 
 /// One sentence about what cannot hold, by a motion whose refinement `converged` or did not.
 pub(super) fn cannot_hold(limits: &[LimitFinding], converged: bool) -> String {

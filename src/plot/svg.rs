@@ -2,7 +2,7 @@
 
 use super::Colour;
 use super::canvas::{Anchor, Canvas, Direction, Element, Part, RING, dashes};
-use crate::printable::xml_text;
+use crate::text::printable::xml_text;
 use std::fmt::{Display, Write};
 
 /// The family named in the SVG: the one the PNG is drawn with, then common ones of its metrics.

@@ -3,7 +3,7 @@
 //! Characters stand side by side, each as wide as the font says. Kerning, which moves a few pairs by a
 //! tenth of a letter, is left out, and so is the shaping of scripts that need it.
 
-use crate::printable::printable;
+use crate::text::printable::printable;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};

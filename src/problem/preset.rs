@@ -55,8 +55,8 @@ impl Preset {
         }
     }
 
-    /// What the base counts beside the joints' effort, both as along the straight path: so much more as
-    /// it is to turn less. A base that turns a tenth of that is a hundredth.
+    /// Weight of the base relative to the joints' effort, both measured on the straight path: with κ a base
+    /// that turns by 1/√κ of the straight path's angle costs as much as the least effort of the way.
     fn base_over_effort(self) -> Option<f64> {
         match self {
             Self::Still => Some(1e3),

@@ -5,7 +5,7 @@ use super::mesh_solve::Solved;
 use super::objective_error::objective_error;
 use super::violation::{OVERSHOOT, violations};
 use super::{Bounded, Errors, Settings, Verdict, Violation, midpoint_errors};
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::ocp::DynOcp;
 
 /// Part of its size by which a bound of a state or a row of the states may be exceeded between the
@@ -82,7 +82,7 @@ impl<'a> Assessor<'a> {
             }
         }
         Assessed {
-            left_to_remove: largest(removable.iter().flatten().map(left_to_remove)),
+            left_to_remove: largest_or_nan(removable.iter().flatten().map(left_to_remove)),
             verdict,
             objective_error,
             next_tolerance,

@@ -32,7 +32,8 @@ impl fmt::Debug for Refinement<'_> {
 }
 
 impl Refinement<'_> {
-    /// A straight line between the ends of every state on the first mesh, at rest controls.
+    /// A straight line between the ends of every state on the first mesh, with all controls zero or as near to
+    /// it as their bounds allow.
     ///
     /// # Errors
     /// Where the settings give no mesh.

@@ -2,7 +2,7 @@
 //!
 //! Derived in docs/algorithms.md#midpoint-error.
 
-use crate::largest::{largest, raise};
+use crate::numeric::{largest_or_nan, raise_or_nan};
 use crate::ocp::DynOcp;
 use crate::transcription::Discretization;
 
@@ -28,7 +28,7 @@ impl Errors {
     /// The largest of all; NaN where one is NaN.
     pub fn max(&self) -> f64 {
         let rows = self.by_segment.iter().chain(&self.integrals);
-        largest(rows.flatten().copied())
+        largest_or_nan(rows.flatten().copied())
     }
 
     /// The same in units of `states` and `integrals`, one for each.
@@ -109,7 +109,7 @@ pub fn midpoint_errors(ocp: &dyn DynOcp, trajectory: &Discretization) -> Errors 
             at(tau, &mut x, &mut f, &mut g);
             trajectory.state_derivative_in(s, tau, &mut dx);
             for i in 0..n {
-                raise(&mut worst[i], (dx[i] - half * f[i]).abs());
+                raise_or_nan(&mut worst[i], (dx[i] - half * f[i]).abs());
             }
             if count == 0 {
                 continue;
@@ -118,7 +118,7 @@ pub fn midpoint_errors(ocp: &dyn DynOcp, trajectory: &Discretization) -> Errors 
             for (i, worst) in worst_integrals.iter_mut().enumerate() {
                 let known = basis.iter().zip(integrated.chunks_exact(count));
                 let between: f64 = known.map(|(l, g)| l * g[i]).sum();
-                raise(worst, half * (between - g[i]).abs());
+                raise_or_nan(worst, half * (between - g[i]).abs());
             }
         }
         errors.by_segment.push(worst);

@@ -10,8 +10,8 @@ use super::{
     Assessment, CutShort, Event, Facts, Outcome, Record, Refined, RefinementLaw, Settings,
     SolveError, Verdict, quadrature_error,
 };
-use crate::largest::largest;
 use crate::nlp::{Control, Progress, Statistics, Status};
+use crate::numeric::largest_or_nan;
 use crate::transcription::{Discretization, Patterns, Structure};
 use std::time::Instant;
 
@@ -263,7 +263,7 @@ impl<'a> MeshLoop<'a> {
             quadrature_error: quadrature_error(self.solver.ocp, &solved.trajectory),
             segment_errors: assessed.errors.by_segment.clone(),
             max_error: assessed.errors.max(),
-            max_violation: largest(outside.map(|v| v.relative)),
+            max_violation: largest_or_nan(outside.map(|v| v.relative)),
             removable_violation: assessed.left_to_remove,
             objective: solved.objective,
             objective_error: assessed.objective_error,

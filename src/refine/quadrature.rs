@@ -3,7 +3,7 @@
 //! Derived in docs/algorithms.md#quadrature-error.
 
 use crate::collocation::Rule;
-use crate::largest::raise;
+use crate::numeric::raise_or_nan;
 use crate::ocp::DynOcp;
 use crate::transcription::Discretization;
 use nalgebra::DMatrix;
@@ -24,7 +24,7 @@ pub fn quadrature_error(ocp: &dyn DynOcp, trajectory: &Discretization) -> f64 {
     let mut largest = vec![0.0_f64; n];
     for row in trajectory.x.chunks_exact(n) {
         for (peak, value) in largest.iter_mut().zip(row) {
-            raise(peak, value.abs());
+            raise_or_nan(peak, value.abs());
         }
     }
     let mut error = 0.0_f64;
@@ -52,7 +52,7 @@ pub fn quadrature_error(ocp: &dyn DynOcp, trajectory: &Discretization) -> f64 {
             for j in 0..points {
                 let integrated = interpolated[(0, i)] + gained[(j, i)];
                 let gap = (integrated - interpolated[(j + 1, i)]).abs();
-                raise(&mut error, gap / (1.0 + largest[i]));
+                raise_or_nan(&mut error, gap / (1.0 + largest[i]));
             }
         }
     }

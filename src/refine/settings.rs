@@ -74,7 +74,7 @@ pub struct Settings {
     /// the adaptive method refines there. Default 1e-3.
     pub bound_tolerance: f64,
     /// Largest number of mesh iterations of the adaptive method, the first included. Default
-    /// `None`: as many as it takes while the error falls.
+    /// `None`: as many as it takes while the error falls or the cost still moves, 40 at most.
     pub max_iterations: Option<usize>,
     /// Largest number of LGR points in one segment of the adaptive method. Default 20.
     pub max_points: usize,

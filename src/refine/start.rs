@@ -14,7 +14,7 @@ pub struct Start {
     pub iterate: Option<Iterate>,
 }
 
-/// A straight line between the ends of every state, at rest controls.
+/// A straight line between the ends of every state, with all controls zero or as near to it as their bounds allow.
 pub(super) fn straight(formulation: &Formulation, mesh: Mesh) -> Discretization {
     let (states, controls) = formulation.widths();
     let duration = formulation.duration.typical();

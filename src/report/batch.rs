@@ -1,10 +1,10 @@
 //! What came of a batch: how its rows ended, distributions, the worst of them.
 
 use super::sheet::Sheet;
-use crate::digits::digits;
-use crate::printable::one_line;
 use crate::solution::dataset::{Column, Data, DataSet, DataSetError};
 use crate::study::batch::RowStatus;
+use crate::text::digits::digits;
+use crate::text::printable::one_line;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

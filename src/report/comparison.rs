@@ -2,10 +2,10 @@
 
 use super::Sheet;
 use super::rows::Rows;
-use crate::digits::digits;
 use crate::planner::Status;
 use crate::study::{Comparison, Entry};
 use crate::system::{JointEffort, Metrics};
+use crate::text::digits::digits;
 use serde::Serialize;
 
 /// One task by every planner.

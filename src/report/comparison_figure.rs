@@ -1,7 +1,6 @@
 //! The comparison as one figure: base and joints over time, a line a planner.
 
 use crate::collocation::Mesh;
-use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::ocp::Interval;
 use crate::planner::Plan;
@@ -9,6 +8,7 @@ use crate::plot::{Axis, Chart, Colour, Figure, Series, Stroke, Width};
 use crate::problem::Problem;
 use crate::study::Comparison;
 use crate::system::{Trajectory, limited_angles, resampled};
+use crate::text::digits::digits;
 
 /// Segments of two points that a motion is drawn with.
 const SEGMENTS: usize = 150;

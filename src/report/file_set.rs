@@ -7,7 +7,7 @@
 
 use super::output::{OutputError, OutputFolder};
 use crate::plot::Figure;
-use crate::printable::printable;
+use crate::text::printable::printable;
 use rustix::fs::{AtFlags, CWD, Mode, OFlags, linkat};
 use std::fs::{File, Permissions};
 use std::io::{self, ErrorKind, Write};

@@ -1,9 +1,9 @@
 //! What `simulate --fit` leaves behind: `fit.md`, which is also printed, and `fit.json`.
 
 use super::Sheet;
-use crate::digits::digits;
 use crate::simulate::fit::{Comparison, Fit, Fitted, Scale};
 use crate::solution::{Build, to_json};
+use crate::text::digits::digits;
 use serde::Serialize;
 
 /// Hypotheses about a platform, each fitted to the same measurements.
@@ -68,7 +68,7 @@ impl FitReport {
 
     /// Difference of the magnitudes, in units of the scale.
     fn gap(&self, comparison: &Comparison) -> f64 {
-        let unit = if comparison.angle {
+        let unit = if comparison.what.is_angle() {
             self.scale.attitude
         } else {
             self.scale.length
@@ -90,11 +90,14 @@ impl FitReport {
         let cells = |found: &[Comparison]| -> Vec<String> {
             let cell = |c: &Comparison| {
                 let mark = if self.gap(c).abs() <= 1.0 { " ✓" } else { "" };
-                format!("{}{mark}", shown(c.angle, c.simulated))
+                format!("{}{mark}", shown(c.what.is_angle(), c.simulated))
             };
             found.iter().map(cell).collect()
         };
-        let measured = self.unfitted.iter().map(|c| shown(c.angle, c.measured));
+        let measured = self
+            .unfitted
+            .iter()
+            .map(|c| shown(c.what.is_angle(), c.measured));
         let start = ["measured", "", "", "", ""].map(String::from);
         add(start, measured.collect());
         let residual = digits(self.unfitted_residual, 2, 2);
@@ -169,8 +172,8 @@ impl FitReport {
                     "- {} {}: measured {}, simulated {}\n",
                     c.experiment,
                     c.what,
-                    shown(c.angle, c.measured),
-                    shown(c.angle, c.simulated)
+                    shown(c.what.is_angle(), c.measured),
+                    shown(c.what.is_angle(), c.simulated)
                 )
             })
             .collect();
@@ -339,8 +342,8 @@ fn comparisons(found: &[Comparison]) -> Vec<ComparisonRecord<'_>> {
 fn comparison(found: &Comparison) -> ComparisonRecord<'_> {
     ComparisonRecord {
         experiment: &found.experiment,
-        what: found.what,
-        unit: if found.angle { "rad" } else { "m" },
+        what: found.what.name(),
+        unit: if found.what.is_angle() { "rad" } else { "m" },
         measured: found.measured,
         simulated: found.simulated,
     }

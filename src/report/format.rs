@@ -1,9 +1,9 @@
 //! Numbers as a person reads them.
 
-use crate::digits::digits;
 use crate::dynamics::attitude::SpatialAttitude;
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::solution::Timing;
+use crate::text::digits::digits;
 use std::time::Duration;
 
 /// An angle (rad) in degrees: three decimals, more where it is small.
@@ -86,7 +86,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Several values in brackets, or the one alone.
 pub(super) fn list(values: &[f64], show: fn(f64) -> String) -> String {
-    let least = ROUNDING * largest(values.iter().map(|value| value.abs()));
+    let least = ROUNDING * largest_or_nan(values.iter().map(|value| value.abs()));
     let shown = |value: f64| show(if value.abs() < least { 0.0 } else { value });
     let shown: Vec<String> = values.iter().map(|value| shown(*value)).collect();
     if shown.len() == 1 {

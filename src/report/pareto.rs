@@ -2,10 +2,10 @@
 
 use super::Sheet;
 use super::rows::Rows;
-use crate::digits::digits;
 use crate::planner::Status;
 use crate::study::pareto::ParetoPoint;
 use crate::system::JointEffort;
+use crate::text::digits::digits;
 use serde::Serialize;
 
 /// The trade-off between the base's motion and the joints' effort.

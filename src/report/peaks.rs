@@ -1,8 +1,8 @@
 //! Largest magnitudes over all joints of a kind, which share their units.
 
 use super::format::{centimetres, degrees};
-use crate::digits::digits;
 use crate::dynamics::{JointKind, Model};
+use crate::text::digits::digits;
 
 /// Largest rate and effort of the joints of one kind.
 pub(super) struct Peaks {

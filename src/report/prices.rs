@@ -1,8 +1,8 @@
 //! What holds J up, in words.
 
-use crate::digits::digits;
 use crate::problem::LimitId;
 use crate::system::ShadowPrice;
+use crate::text::digits::digits;
 
 /// How much wider the limits are thought to be.
 const WIDER: f64 = 0.1;

@@ -5,7 +5,6 @@ use super::format::{OF_RELAXED, centimetres, cost, degrees, gap, list, rotation,
 use super::lines::Lines;
 use super::peaks::Peaks;
 use super::prices;
-use crate::digits::digits;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::{JointKind, Model};
 use crate::planner::{BASE_RATE_REGULARIZATION, Method, Plan, Status};
@@ -14,6 +13,7 @@ use crate::refine::{Record, Verdict};
 use crate::solution;
 use crate::study::{BaseMotion, Baselines};
 use crate::system::shadow_prices;
+use crate::text::digits::digits;
 use crate::verify::Verification;
 use comfy_table::{CellAlignment, Table, presets};
 use std::path::PathBuf;

@@ -19,9 +19,15 @@ mod session;
 pub mod table2;
 mod trade_off;
 
+use crate::planner::Method;
+use crate::refine;
+
 pub use comparison::{Compared, compared};
 pub use session::{ReproductionError, Run, Session, Step};
 pub use trade_off::TradeOff;
+
+/// The method of the paper.
+pub const A_RPM: Method = Method::Collocation(refine::Method::Adaptive);
 
 /// The shipped case without the published bounds on the base attitude.
 pub const RELAXED: &str = "table1-relaxed";

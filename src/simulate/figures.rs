@@ -1,7 +1,7 @@
 //! What a run comes to, and how runs scatter.
 
 use super::run::Run;
-use crate::largest::raise;
+use crate::numeric::raise_or_nan;
 
 /// How far the base moved from where it was first seen; displacements are of the tracked point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -28,9 +28,9 @@ impl Figures {
             ..Self::default()
         };
         for [x, y, attitude] in poses {
-            raise(&mut found.max_attitude, (attitude - first[2]).abs());
+            raise_or_nan(&mut found.max_attitude, (attitude - first[2]).abs());
             let distance = (x - first[0]).hypot(y - first[1]);
-            raise(&mut found.max_displacement, distance);
+            raise_or_nan(&mut found.max_displacement, distance);
         }
         found
     }
@@ -69,7 +69,7 @@ impl Spread {
             if value.is_nan() || value < min {
                 min = value;
             }
-            raise(&mut max, value);
+            raise_or_nan(&mut max, value);
         }
         let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
         Self {

@@ -1,7 +1,7 @@
 //! Random numbers: one stream a run and source, so that switching one source off leaves the
 //! others as they were.
 
-use crate::split_mix::mix;
+use crate::numeric::mix;
 use fastrand::Rng;
 use std::f64::consts::TAU;
 

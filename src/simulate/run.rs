@@ -9,7 +9,7 @@ use super::platform::JointFriction;
 use super::player::Player;
 use super::tracking::Tracking;
 use crate::integrate::{DormandPrince, IntegrationError, Ode};
-use crate::largest::raise;
+use crate::numeric::raise_or_nan;
 use crate::parallel;
 use nalgebra::Vector2;
 use std::collections::VecDeque;
@@ -110,8 +110,8 @@ impl Plant {
         self.dynamics.place(q, v);
         let linear = (self.dynamics.linear_momentum() - self.linear).norm();
         let angular = (self.dynamics.angular_momentum() - self.angular).abs();
-        raise(&mut self.found[0], linear);
-        raise(&mut self.found[1], angular);
+        raise_or_nan(&mut self.found[0], linear);
+        raise_or_nan(&mut self.found[1], angular);
     }
 }
 
@@ -288,7 +288,7 @@ impl<'a> Playback<'a> {
             if error.is_nan() || error > LOST {
                 return Err(SimulateError::Stuck { time: self.t });
             }
-            raise(&mut self.run.max_joint_error, error);
+            raise_or_nan(&mut self.run.max_joint_error, error);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::write::{cost_terms, goals, metrics, trajectory, verification};
 use super::{Saved, Solution};
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::planner::{Doubt, Judgement, Status, judge, judge_solved};
 use crate::system;
 
@@ -42,7 +42,7 @@ impl Saved {
             ("joint torque", &saved.joint_torque, &follows.joint_torque),
         ];
         columns.into_iter().find_map(|(name, saved, follows)| {
-            let room = SAME * largest(follows.iter().flatten().map(|value| value.abs()));
+            let room = SAME * largest_or_nan(follows.iter().flatten().map(|value| value.abs()));
             let rows = saved.iter().zip(follows).enumerate();
             let mut pairs =
                 rows.flat_map(|(k, (a, b))| a.iter().zip(b).map(move |(a, b)| (k, *a, *b)));

@@ -8,9 +8,9 @@ use crate::collocation::{Mesh, MeshError};
 use crate::config::{ConfigError, ProblemFile, regular};
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::planner::{Plan, Status};
-use crate::printable::message;
 use crate::problem::Problem;
 use crate::system::with_peaks;
+use crate::text::printable::message;
 use crate::transcription::Discretization;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! The base's motion without planning: along the straight joint path, and by MATPM.
 
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::ocp::Interval;
 use crate::planner::matpm_motion;
 use crate::problem::Problem;
@@ -22,7 +22,7 @@ impl BaseMotion {
         let angles = base_angles(motion);
         Self {
             last: angles.last().copied().unwrap_or(0.0),
-            largest: largest(angles),
+            largest: largest_or_nan(angles),
         }
     }
 

@@ -13,7 +13,7 @@ use crate::collocation::{Mesh, MeshError};
 use crate::dynamics::Data;
 use crate::dynamics::attitude::{Attitude, SpatialAttitude};
 use crate::dynamics::space::{Space, Vector};
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
 
@@ -32,7 +32,7 @@ pub fn base_angles(trajectory: &Trajectory) -> Vec<f64> {
             .map(|eta| attitude.squared_rotation_angle::<f64>(eta).sqrt())
             .collect(),
         None => rows
-            .map(|eta| largest(eta.iter().map(|a| a.abs())))
+            .map(|eta| largest_or_nan(eta.iter().map(|a| a.abs())))
             .collect(),
     }
 }
@@ -74,14 +74,15 @@ pub(crate) fn metrics<Sp: Space>(
     plan: &Discretization,
     nodes: &Trajectory,
 ) -> Metrics {
-    let peak = |rows: &[Vec<f64>]| largest(rows.iter().flatten().map(|value| value.abs()));
+    let peak = |rows: &[Vec<f64>]| largest_or_nan(rows.iter().flatten().map(|value| value.abs()));
     let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
     let between = fine_mesh(plan).map(|mesh| base_motion(system, &plan.resample(mesh)));
     let mut between = between.unwrap_or_default();
     // The end is a node, and known to the last digit.
     between.base_attitude.pop();
     between.base_position.pop();
-    let most = |of: fn(&Trajectory) -> Vec<f64>| largest(of(nodes).into_iter().chain(of(&between)));
+    let most =
+        |of: fn(&Trajectory) -> Vec<f64>| largest_or_nan(of(nodes).into_iter().chain(of(&between)));
     Metrics {
         max_base_attitude: most(base_angles),
         final_base_attitude: last(&base_angles(nodes)),

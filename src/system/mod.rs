@@ -3,6 +3,8 @@
 //! | file | holds |
 //! | --- | --- |
 //! | `plant` | the robot on its free base with the momentum it started with |
+//! | `instant` | what rows and cost terms are functions of: the pose, and the motion at an instant |
+//! | `linearization` | its first derivatives at a collocation point |
 //! | `rows/`, `cost/` | path and boundary rows and cost terms, one file a kind |
 //! | `free_floating`, `formulation` | the problem they make |
 //! | `dispatch` | planar or spatial |
@@ -10,7 +12,9 @@
 //! | `functions`, `derivatives` | its values, and its derivatives by structure |
 //! | `guess`, `straight_line`, `trajectory` | motions: where the search begins, what planning has to beat, what was planned |
 //! | `starts/` | paths unlike each other to begin a search with |
-//! | `tumble` | a base that turns with its momentum for long |
+//! | `drift`, `tumble` | what a momentum from the start does to the base, for long as well |
+//! | `quintic` | the timing law of motions that are made up |
+//! | `torques` | joint torques from controls |
 //! | `motion`, `accelerations`, `metrics` | a motion over time, its figures, the base angle |
 //! | `peaks` | the largest values that the cost is about |
 //! | `limits`, `row_values`, `goal_errors` | what gives way, and what was reached |

@@ -2,7 +2,7 @@
 
 use super::metrics::base_angles;
 use super::straight_line::straight_motion;
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::problem::{Problem, Sizes};
 
 /// Steps along the straight path at which the base angle is looked at.
@@ -15,5 +15,9 @@ pub fn sizes(problem: &Problem) -> Sizes {
     let motion = straight_motion(problem, duration, STEPS);
     let ends = task.initial_joints.iter().zip(&task.final_joints);
     let squared_travel = ends.map(|(a, b)| (b - a).powi(2)).sum();
-    Sizes::new(duration, largest(base_angles(&motion)), squared_travel)
+    Sizes::new(
+        duration,
+        largest_or_nan(base_angles(&motion)),
+        squared_travel,
+    )
 }

@@ -7,7 +7,7 @@ use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
 use super::quaternion::{turn_rate, unit, vector, write};
 use crate::integrate::Ode;
-use crate::largest::raise;
+use crate::numeric::raise_or_nan;
 use crate::transcription::Discretization;
 
 /// Base position, orientation, velocity, angular velocity and the joints' work; then θ and θ̇.
@@ -124,23 +124,23 @@ impl Pass for Forward<'_> {
     fn after_step(&mut self, y: &[f64], found: &mut Verification) {
         self.place_bodies(y);
         let gap = self.bodies.kinetic_energy() - self.start_energy - y[WORK];
-        raise(
+        raise_or_nan(
             &mut found.max_linear_momentum,
             (self.bodies.linear_momentum() - self.planned.linear).norm(),
         );
-        raise(
+        raise_or_nan(
             &mut found.max_angular_momentum,
             (self.bodies.angular_momentum() - self.planned.angular).norm(),
         );
-        raise(&mut found.max_energy_gap, gap.abs());
+        raise_or_nan(&mut found.max_energy_gap, gap.abs());
         found.steps += 1;
     }
 
     fn at_node(&mut self, k: usize, y: &[f64], found: &mut Verification) {
         let (orientation, position) = self.planned.base(k);
         let turned = unit(&y[ORIENTATION..]).angle_to(&orientation);
-        raise(&mut found.max_base_attitude_drift, turned);
-        raise(
+        raise_or_nan(&mut found.max_base_attitude_drift, turned);
+        raise_or_nan(
             &mut found.max_base_position_drift,
             (vector(y, POSITION) - position).norm(),
         );
@@ -150,7 +150,7 @@ impl Pass for Forward<'_> {
             if drift > found.max_joint_drift {
                 found.worst_joint = joint;
             }
-            raise(&mut found.max_joint_drift, drift);
+            raise_or_nan(&mut found.max_joint_drift, drift);
         }
     }
 }

@@ -8,7 +8,7 @@ use super::pass::{Pass, Planned};
 use super::polynomial::Polynomial;
 use super::quaternion::{turn_rate, unit, vector, write};
 use crate::integrate::Ode;
-use crate::largest::raise;
+use crate::numeric::raise_or_nan;
 use crate::transcription::Discretization;
 
 /// Integrates the base's position and orientation by the system's momentum along the polynomial θ(t).
@@ -93,11 +93,11 @@ impl Pass for Replay<'_> {
 
     fn at_node(&mut self, k: usize, y: &[f64], found: &mut Verification) {
         let (orientation, position) = self.planned.base(k);
-        raise(
+        raise_or_nan(
             &mut found.replay_base_attitude_drift,
             unit(&y[3..]).angle_to(&orientation),
         );
-        raise(
+        raise_or_nan(
             &mut found.replay_base_position_drift,
             (vector(y, 0) - position).norm(),
         );

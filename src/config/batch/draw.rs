@@ -1,7 +1,8 @@
 //! Seeded random values, each a function of the seed, the key it is for and the position of its row
 //! alone: the same whatever else is drawn, and in any order.
 
-use crate::config::distribution::{Distribution, standard_normal};
+use crate::config::distribution::Distribution;
+use crate::numeric::standard_normal;
 use sha2::{Digest, Sha256};
 
 impl Distribution {

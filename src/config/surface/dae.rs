@@ -3,7 +3,7 @@
 //! stand, whichever of them points up.
 
 use super::Surface;
-use crate::printable::message;
+use crate::text::printable::message;
 use nalgebra::{Matrix4, Rotation3, Unit, Vector3, Vector4};
 use roxmltree::{Document, Node};
 use std::collections::HashMap;

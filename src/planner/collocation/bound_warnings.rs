@@ -1,11 +1,11 @@
 //! A word about limits that are exceeded between the points of the mesh.
 
-use crate::digits::digits;
 use crate::dynamics::space::Space;
 use crate::ocp::Limited;
 use crate::problem::LimitId;
 use crate::refine::{Bounded, Violation};
 use crate::system::FreeFloating;
+use crate::text::digits::digits;
 use crate::transcription::Discretization;
 
 /// A sentence for each of `violations`: the limit, how far it is exceeded, when, and what helps.

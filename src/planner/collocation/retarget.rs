@@ -1,6 +1,7 @@
 //! A saved trajectory bent towards a changed task.
 
 use crate::problem::Problem;
+use crate::system::quintic;
 use crate::transcription::Discretization;
 
 /// `saved` with its joints led from the start to the goal of `problem`, and in its time.
@@ -33,7 +34,7 @@ pub(super) fn retarget(saved: &Discretization, problem: &Problem) -> Discretizat
             (1.0, new - old)
         };
         for (k, &fraction) in fractions.iter().enumerate() {
-            let [blend, slope, bend] = quintic(fraction);
+            let [blend, slope, bend] = quintic(fraction, 1.0);
             let x = &mut bent.x[k * saved.states..(k + 1) * saved.states];
             x[q] = start + ratio * (x[q] - from) + rest * blend;
             x[dq] = ratio * stretch * x[dq] + rest * slope / bent.duration;
@@ -44,13 +45,4 @@ pub(super) fn retarget(saved: &Discretization, problem: &Problem) -> Discretizat
         }
     }
     bent
-}
-
-/// From 0 to 1 at rest at both ends: value, and first and second derivative.
-fn quintic(p: f64) -> [f64; 3] {
-    [
-        p * p * p * (10.0 + p * (6.0 * p - 15.0)),
-        30.0 * p * p * (1.0 - p) * (1.0 - p),
-        60.0 * p * (1.0 - p) * (1.0 - 2.0 * p),
-    ]
 }

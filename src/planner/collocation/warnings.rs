@@ -1,8 +1,8 @@
 //! What a user should know before using a plan, a sentence each.
 
 use crate::dynamics::attitude::SpatialAttitude;
-use crate::largest::largest;
 use crate::nlp::{self, ipopt};
+use crate::numeric::largest_or_nan;
 use crate::problem::Problem;
 use crate::refine::{self, CutShort, Method, Outcome, Verdict};
 use crate::system::Trajectory;
@@ -49,7 +49,7 @@ fn unbounded(problem: &Problem, trajectory: &Trajectory) -> Option<String> {
         let is_bounded = torque.lower.is_finite() && torque.upper.is_finite();
         let rates = trajectory.joint_velocity.iter().map(|rates| rates[j].abs());
         let most = limits.control[j].upper.max(-limits.control[j].lower);
-        let jumps = most.is_infinite() || largest(rates) < JUMP * most * duration;
+        let jumps = most.is_infinite() || largest_or_nan(rates) < JUMP * most * duration;
         weights.iter().all(|weight| *weight == 0.0) && !is_bounded && jumps
     };
     let joints = problem.robot.joints().iter().enumerate();
@@ -132,7 +132,7 @@ const LONG: f64 = 3.0;
 fn near_singularity(trajectory: &Trajectory) -> Option<String> {
     let most = |size: fn(&[f64]) -> f64| {
         let rows = trajectory.base_attitude.iter();
-        largest(rows.map(|eta| size(eta)))
+        largest_or_nan(rows.map(|eta| size(eta)))
     };
     match trajectory.attitude? {
         SpatialAttitude::RollPitchYaw => {

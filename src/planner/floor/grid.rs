@@ -3,7 +3,7 @@
 use super::Connection;
 use crate::dynamics::Data;
 use crate::dynamics::space::Planar;
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::parallel;
 use crate::problem::Problem;
 
@@ -122,7 +122,7 @@ impl Grid {
                 let rows = i.saturating_sub(2)..=(i + 2).min(size[0] - 1);
                 let columns = j.saturating_sub(2)..=(j + 2).min(size[1] - 1);
                 let values = rows.flat_map(|i| columns.clone().map(move |j| place(stride, [i, j])));
-                area * largest(values.map(|k| curvature[k]))
+                area * largest_or_nan(values.map(|k| curvature[k]))
             };
             row(i).map(around).collect()
         });

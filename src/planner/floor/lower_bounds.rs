@@ -1,8 +1,8 @@
 //! How far the base must turn at least, beside what a search finds.
 
 use super::{Certainty, Grid, STEPS, WORK};
-use crate::largest::largest;
 use crate::nlp::Deadline;
+use crate::numeric::largest_or_nan;
 use crate::problem::Problem;
 use crate::system::straight_motion;
 
@@ -39,7 +39,7 @@ impl LowerBounds {
         }
         let at_end = low.max(-high).max(0.0);
         let straight = straight_motion(problem, problem.task.duration.center(), STEPS);
-        let most = largest(straight.base_attitude.iter().map(|x| x[0].abs()));
+        let most = largest_or_nan(straight.base_attitude.iter().map(|x| x[0].abs()));
         let least = problem.task.initial_base_attitude[0].abs().max(at_end);
         let between = [least.min(most), most];
         Some(Self {

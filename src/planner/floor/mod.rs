@@ -18,7 +18,7 @@ pub use sweep::Certainty;
 use super::LimitFinding;
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::problem::{LimitId, Problem};
 use crate::system::{Component, FreeFloating, straight_motion};
 
@@ -92,7 +92,7 @@ impl Floors {
                 };
                 Some(match at_end {
                     true => path.last().map(value)?,
-                    false => largest(path.iter().map(value)),
+                    false => largest_or_nan(path.iter().map(value)),
                 })
             }
             Self::TwoJoints(grid) if at_end => {

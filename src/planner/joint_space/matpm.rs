@@ -9,11 +9,11 @@
 //! Derived in docs/algorithms.md#matpm.
 
 use super::joint_motion::{self, JointMotion, assemble, duration, rest_to_rest};
-use crate::digits::digits;
 use crate::ocp::Interval;
 use crate::planner::{Diagnosis, Method, Plan, PlanError};
 use crate::problem::{LimitId, Problem};
 use crate::system::{Component, System, Trajectory, by_quaternion, describe, with_system};
+use crate::text::digits::digits;
 use std::time::Instant;
 
 /// Plans `problem`'s task with the least largest acceleration of every joint.

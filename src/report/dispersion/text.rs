@@ -2,10 +2,10 @@
 
 use super::DispersionReport;
 use super::figure::DispersedFigure;
-use crate::digits::digits;
 use crate::report::format::gap;
 use crate::report::{Lines, Sheet};
 use crate::study::dispersion::{Response, Sensitivities};
+use crate::text::digits::digits;
 use std::path::PathBuf;
 
 /// Quantities listed for each response.

@@ -1,8 +1,8 @@
 //! The numbers behind the charts, for what the page says at the cursor and for downloads.
 
 use super::charts::Panel;
-use crate::digits;
 use crate::plot::Colour;
+use crate::text::digits;
 use serde::Serialize;
 
 /// Significant digits, more than a screen shows.

@@ -1,6 +1,5 @@
 //! The planned motion over time with its bounds, one chart a quantity.
 
-use crate::digits::rounded;
 use crate::dynamics::JointKind;
 use crate::dynamics::attitude::Attitude;
 use crate::ocp::Interval;
@@ -8,6 +7,7 @@ use crate::plot::{Axis, Chart, Colour, Figure, Marker, Series, Stroke, Width};
 use crate::problem::Problem;
 use crate::solution::{Iteration, Solution};
 use crate::system::{Trajectory, base_angles, finely, limited_angles};
+use crate::text::digits::rounded;
 use crate::transcription::Discretization;
 
 /// Part of the duration at its end over which bounds of the end alone are drawn.

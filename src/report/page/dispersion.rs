@@ -3,14 +3,14 @@
 
 use super::head::head;
 use super::scrolling::scrolling;
-use crate::digits::digits;
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Shape, Stroke, Width};
-use crate::printable::printable;
 use crate::report::dispersion::{
     DispersedFigure, DispersionReport, figure_row, largest, sensitivity_headline,
 };
 use crate::solution::Build;
 use crate::study::dispersion::Sensitivities;
+use crate::text::digits::digits;
+use crate::text::printable::printable;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// Bars of sensitivity charts.

@@ -4,12 +4,12 @@ use super::charts::Panel;
 use super::head::head;
 use super::scrolling::scrolling;
 use super::{SCRIPT, with_numbers};
-use crate::digits::digits;
 use crate::plot::{Chart, Figure, Width};
-use crate::printable::printable;
 use crate::report::ParetoReport;
 use crate::report::format::degrees;
 use crate::solution::Build;
+use crate::text::digits::digits;
+use crate::text::printable::printable;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 impl ParetoReport<'_> {

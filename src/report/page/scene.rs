@@ -3,10 +3,10 @@
 use super::marks::{Mark, marks};
 use super::pose::{base_pose, from_picture};
 use super::solids::{Faceted, Solids};
-use crate::digits;
 use crate::dynamics::{Body, Model};
 use crate::problem::{KeepOut, Problem, Solid};
 use crate::system::{Trajectory, base_angles};
+use crate::text::digits;
 use crate::transcription::Discretization;
 use crate::verify::bodies::{BaseMotion, Bodies};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};

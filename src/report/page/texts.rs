@@ -1,6 +1,5 @@
 //! What the page says in words and numbers.
 
-use crate::digits::digits;
 use crate::dynamics::JointKind;
 use crate::planner::Status;
 use crate::problem::Problem;
@@ -10,6 +9,7 @@ use crate::report::peaks::Peaks;
 use crate::solution::{CostTerm, Solution, Verification};
 use crate::study::{BaseMotion, Baselines};
 use crate::system::{Trajectory, base_angles, base_displacements};
+use crate::text::digits::digits;
 
 /// A fact: what, how much, and where it needs one, what that means.
 pub(super) struct Fact {

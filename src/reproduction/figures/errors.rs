@@ -4,6 +4,7 @@
 //! are drawn equally wide instead, with the times of their boundaries below.
 
 use super::Case;
+use crate::numeric::largest_or_nan;
 use crate::plot::{Axis, Chart, Colour, Figure, Series, Width};
 use crate::refine::Record;
 
@@ -87,7 +88,7 @@ fn subscript(number: usize) -> String {
 
 /// Largest error of a mesh iteration, and the middle of its segment, s.
 pub fn worst(record: &Record, duration: f64) -> (f64, f64) {
-    let error = |s: usize| record.segment_errors[s].iter().copied().fold(0.0, f64::max);
+    let error = |s: usize| largest_or_nan(record.segment_errors[s].iter().copied());
     let s = (0..record.segments)
         .max_by(|&a, &b| error(a).total_cmp(&error(b)))
         .unwrap_or(0);

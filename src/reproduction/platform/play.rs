@@ -2,24 +2,28 @@
 
 use crate::config::{PlatformFile, ProblemFile};
 use crate::planner::{Method, Status};
-use crate::refine;
 use crate::reproduction::figures::{Case, Extremes};
-use crate::reproduction::{HEAVY, RELAXED, ReproductionError, Session};
+use crate::reproduction::{A_RPM, HEAVY, RELAXED, ReproductionError, Session};
 use crate::simulate::{Figures, Player, SimulateError, Spread};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// The platform that plans are played on.
 pub const PLATFORM: &str = "air-bearing";
 /// The problems that are planned.
 const PROBLEMS: [&str; 2] = [RELAXED, HEAVY];
 
+fn by_name<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(method.name())
+}
+
 /// One plan, and what it comes to on a platform with noise of its own in each run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Played {
     /// The shipped problem.
     pub problem: &'static str,
-    /// The planner.
-    pub method: &'static str,
+    /// The planner; written by its name in files.
+    #[serde(serialize_with = "by_name")]
+    pub method: Method,
     /// Whether the plan keeps the problem's limits and tolerance.
     pub solved: bool,
     /// The motion as planned.
@@ -41,7 +45,7 @@ pub fn played(session: &mut Session<'_>) -> Result<Vec<Played>, ReproductionErro
     let mut found = Vec::new();
     for name in PROBLEMS {
         let problem = ProblemFile::shipped(name)?.problem;
-        for method in [Method::Collocation(refine::Method::Adaptive), Method::Matpm] {
+        for method in [A_RPM, Method::Matpm] {
             let title = format!("{name} by {} on {PLATFORM}", method.name());
             let failure = |cause: SimulateError| ReproductionError::Simulate {
                 name: title.clone(),
@@ -58,7 +62,7 @@ pub fn played(session: &mut Session<'_>) -> Result<Vec<Played>, ReproductionErro
             let case = Case::new("platform", problem.clone(), plan);
             found.extend(Extremes::of(&case).map(|extremes| Played {
                 problem: name,
-                method: method.name(),
+                method,
                 solved,
                 extremes,
                 runs: runs.len(),
@@ -77,8 +81,9 @@ impl Played {
             problem, method, ..
         } = self;
         let (option, folder) = match *method {
-            "a-rpm" => (String::new(), format!("out/{problem}")),
-            _ => {
+            A_RPM => (String::new(), format!("out/{problem}")),
+            other => {
+                let method = other.name();
                 let folder = format!("out/{problem}-{method}");
                 (format!(" --method {method} --out {folder}"), folder)
             }

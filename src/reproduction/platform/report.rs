@@ -2,8 +2,9 @@
 
 use super::{BaseInertia, Played, fit, played};
 use crate::config::{FitFile, ProblemFile};
+use crate::planner::Method;
 use crate::report::{FitReport, Sheet, reduced};
-use crate::reproduction::{HEAVY, RELAXED, ReproductionError, Session};
+use crate::reproduction::{A_RPM, HEAVY, RELAXED, ReproductionError, Session};
 use crate::simulate::fit::{Fit, Measured};
 use serde::Serialize;
 
@@ -63,7 +64,7 @@ impl Platform {
     }
 
     /// A plan by problem and planner.
-    pub fn plan(&self, problem: &str, method: &str) -> Option<&Played> {
+    pub fn plan(&self, problem: &str, method: Method) -> Option<&Played> {
         self.played
             .iter()
             .find(|played| played.problem == problem && played.method == method)
@@ -78,8 +79,8 @@ impl Platform {
     pub fn finding(&self) -> String {
         let (Some(found), Some(matpm), Some(a_rpm)) = (
             self.base_inertia,
-            self.plan(HEAVY, "matpm"),
-            self.plan(HEAVY, "a-rpm"),
+            self.plan(HEAVY, Method::Matpm),
+            self.plan(HEAVY, A_RPM),
         ) else {
             return "No base inertia explains the measured turn.".into();
         };
@@ -117,7 +118,7 @@ impl Platform {
              config/{HEAVY}.toml` and `ffsm-ipopt plan config/{HEAVY}.toml`\n\n{}\n",
             self.finding()
         );
-        if let Some(plan) = self.plan(RELAXED, "a-rpm") {
+        if let Some(plan) = self.plan(RELAXED, A_RPM) {
             let [x, y] = plan.extremes.final_displacement;
             let [u, v] = plan.extremes.unturned_displacement;
             text.push_str(&format!(
@@ -168,26 +169,26 @@ impl Platform {
         .words(2);
         let degrees = 1f64.to_degrees();
         let units = [degrees, degrees, 100.0, 100.0];
-        for (method, measured) in ["a-rpm", "matpm"].into_iter().zip(&self.measured) {
+        for (method, measured) in [A_RPM, Method::Matpm].into_iter().zip(&self.measured) {
             let [x, y] = [0, 1].map(|i| measured.final_displacement.map(|d| d[i]));
             let published = [measured.max_attitude, measured.final_attitude, x, y];
             let cells = published.iter().zip(units).map(|(value, unit)| {
                 value.map_or_else(|| "–".into(), |value| format!("{:.1}", value * unit))
             });
-            let start = [method, "measured"].map(String::from);
+            let start = [method.name(), "measured"].map(String::from);
             sheet.row(start.into_iter().chain(cells).collect());
             for played in self.played.iter().filter(|p| p.method == method) {
                 let e = &played.extremes;
                 let [x, y] = e.final_displacement;
                 let planned = [e.largest_attitude, e.final_attitude, x, y];
                 let cells = planned.iter().map(|value| format!("{value:.2}"));
-                let start = [method.into(), format!("{}, planned", played.problem)];
+                let start = [method.name().into(), format!("{}, planned", played.problem)];
                 sheet.row(start.into_iter().chain(cells).collect());
                 let cells = (0..4).map(|i| {
                     let [mean, deviation] = [played.mean[i], played.deviation[i]];
                     format!("{:.2} ± {:.2}", mean * units[i], deviation * units[i])
                 });
-                let start = [method.into(), format!("{}, played", played.problem)];
+                let start = [method.name().into(), format!("{}, played", played.problem)];
                 sheet.row(start.into_iter().chain(cells).collect());
             }
         }

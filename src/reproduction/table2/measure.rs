@@ -5,13 +5,18 @@ use crate::problem::Problem;
 use crate::refine::Method;
 use crate::report::{exact, short};
 use crate::reproduction::{ReproductionError, Run, Session};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+
+fn by_name<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(method.name())
+}
 
 /// What is measured of several runs of one problem.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measured {
-    /// Method, by its name in files.
-    pub method: &'static str,
+    /// Method; written by its name in files.
+    #[serde(serialize_with = "by_name")]
+    pub method: Method,
     /// Whether the largest error is within the tolerance.
     pub reached: bool,
     /// How planning ended.
@@ -62,7 +67,7 @@ impl Measured {
         let finite = |value: f64| value.is_finite().then_some(value);
         let last = plan.iterations.last();
         Ok(Self {
-            method: method.name(),
+            method,
             reached: plan.status == Status::Solved,
             status: plan.status.name(),
             points: plan.discretization.mesh.points(),

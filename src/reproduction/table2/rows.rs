@@ -141,7 +141,7 @@ fn table(rows: &[Row]) -> Sheet {
         } = row;
         sheet.row(vec![
             format!("{:e}", row.tolerance),
-            measured.method.into(),
+            measured.method.name().into(),
             measured.points.to_string(),
             measured.solves.to_string(),
             measured.nlp_iterations.to_string(),
@@ -173,7 +173,7 @@ pub fn sheet(rows: &[Row]) -> Sheet {
         let mut cells = vec![
             row.problem.into(),
             exact(row.tolerance),
-            row.measured.method.into(),
+            row.measured.method.name().into(),
         ];
         cells.extend(row.measured.cells());
         cells.extend([

@@ -120,7 +120,7 @@ pub fn sweep_sheet(rows: &[SweepRow]) -> Sheet {
     header.extend(Measured::COLUMNS);
     let mut sheet = Sheet::new(&header);
     for row in rows {
-        let mut cells = vec![exact(row.control_weight), row.measured.method.into()];
+        let mut cells = vec![exact(row.control_weight), row.measured.method.name().into()];
         cells.extend(row.measured.cells());
         sheet.row(cells);
     }
@@ -131,9 +131,7 @@ pub fn sweep_sheet(rows: &[SweepRow]) -> Sheet {
 pub fn sweep_figure(rows: &[SweepRow]) -> Figure {
     let weight = |row: &SweepRow| row.control_weight.max(ZERO_AT);
     let of = |method: crate::refine::Method, value: fn(&Measured) -> f64| {
-        let rows = rows
-            .iter()
-            .filter(|row| row.measured.method == method.name());
+        let rows = rows.iter().filter(|row| row.measured.method == method);
         rows.map(|row| (weight(row), value(&row.measured)))
             .unzip::<f64, f64, Vec<f64>, Vec<f64>>()
     };

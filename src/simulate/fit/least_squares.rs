@@ -4,7 +4,7 @@
 //! that follows the gain ratio (K. Madsen, H. B. Nielsen, O. Tingleff, "Methods for non-linear
 //! least squares problems", section 3.2).
 
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
@@ -76,7 +76,7 @@ pub fn minimise<E>(
                 !(z <= 0.0 && g > 0.0 || z >= 1.0 && g < 0.0)
             })
             .collect();
-        let steepest = largest(free.iter().map(|&i| gradient[i].abs()));
+        let steepest = largest_or_nan(free.iter().map(|&i| gradient[i].abs()));
         if !(steepest.is_finite() && at.sum().is_finite()) {
             break;
         }

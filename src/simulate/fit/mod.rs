@@ -9,9 +9,11 @@
 mod hypotheses;
 mod least_squares;
 mod parameter;
+mod quantity;
 
 pub use least_squares::{Minimum, minimise};
 pub use parameter::Parameter;
+pub use quantity::MeasuredQuantity;
 
 use super::{Figures, Platform, Player, SimulateError};
 use fastrand::Rng;
@@ -45,9 +47,7 @@ pub struct Comparison {
     /// Name of the experiment.
     pub experiment: String,
     /// What is compared.
-    pub what: &'static str,
-    /// Whether it is an angle, else a length.
-    pub angle: bool,
+    pub what: MeasuredQuantity,
     /// As measured, a magnitude, rad or m.
     pub measured: f64,
     /// As simulated, with its sign.
@@ -276,12 +276,11 @@ impl Experiments {
         {
             let run = player.on(platform.without_noise()).run(0)?;
             let figures = Figures::measured(&run);
-            let mut add = |what, angle, measured_value: Option<f64>, simulated| {
+            let mut add = |what, measured_value: Option<f64>, simulated| {
                 if let Some(value) = measured_value {
                     found.push(Comparison {
                         experiment: measured.name.clone(),
                         what,
-                        angle,
                         measured: value,
                         simulated,
                     });
@@ -289,27 +288,26 @@ impl Experiments {
             };
             let [x, y] = figures.final_displacement;
             let [along_x, along_y] = [0, 1].map(|i| measured.final_displacement.map(|d| d[i]));
+            let found = [figures.max_attitude, figures.final_attitude];
             add(
-                "largest attitude",
-                true,
+                MeasuredQuantity::LargestAttitude,
                 measured.max_attitude,
-                figures.max_attitude,
+                found[0],
             );
             add(
-                "final attitude",
-                true,
+                MeasuredQuantity::FinalAttitude,
                 measured.final_attitude,
-                figures.final_attitude,
+                found[1],
             );
-            add("final x", false, along_x, x);
-            add("final y", false, along_y, y);
+            add(MeasuredQuantity::FinalX, along_x, x);
+            add(MeasuredQuantity::FinalY, along_y, y);
         }
         Ok(found)
     }
 
     /// Difference of the magnitudes in units of the scale.
     fn residual(&self, comparison: &Comparison) -> f64 {
-        let unit = if comparison.angle {
+        let unit = if comparison.what.is_angle() {
             self.scale.attitude
         } else {
             self.scale.length

@@ -4,7 +4,7 @@
 
 use super::Samples;
 use crate::dynamics::{Body, Inertia, JointKind, Model};
-use crate::printable::xml_text;
+use crate::text::printable::xml_text;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use std::fmt::Write;
 

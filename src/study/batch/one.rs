@@ -4,7 +4,7 @@ use super::{Figures, Motion, Record, Refusal, RowStatus, Task, Tasks};
 use crate::nlp::Control;
 use crate::nlp::ipopt::interrupt;
 use crate::planner::{Event, Method, Plan, PlanError, Planner, Start, Status};
-use crate::printable::one_line;
+use crate::text::printable::one_line;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;

@@ -3,7 +3,7 @@
 
 use super::tracking::HARMONICS;
 use crate::config::{Dispersed, Dispersion, Distribution};
-use crate::split_mix::mix;
+use crate::numeric::mix;
 use sha2::{Digest, Sha256};
 
 /// Numbers of one quantity.

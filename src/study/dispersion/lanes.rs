@@ -4,7 +4,7 @@
 //! ([`crate::autodiff::dispatch`]). Products and sums stay apart: results are the same on every
 //! machine.
 
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 /// Samples side by side.
@@ -53,7 +53,7 @@ impl Lanes {
     /// The largest magnitude of any sample; NaN where one is.
     #[inline(always)]
     pub fn amax(self) -> f64 {
-        largest(self.0.map(f64::abs))
+        largest_or_nan(self.0.map(f64::abs))
     }
 
     /// Sine and cosine of an angle. Small ones, as errors of joints are, take their series, which is

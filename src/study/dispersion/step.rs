@@ -10,7 +10,7 @@ use super::gauss::Gauss;
 use super::lanes::{Lanes, Quaternion, Vector};
 use super::perturbed::Perturbed;
 use super::tracking::HarmonicsAt;
-use crate::largest::raise;
+use crate::numeric::raise_or_nan;
 
 /// Most stages of a step.
 pub(super) const MOST_STAGES: usize = 12;
@@ -126,7 +126,7 @@ impl Step {
             for (i, at) in at[..s].iter_mut().enumerate() {
                 let next = self.sum(&bases.orientation, &rate, &self.matrix[i * s..][..s]);
                 for (next, before) in next.0.iter().zip(&at.0) {
-                    raise(&mut change, (*next - *before).amax());
+                    raise_or_nan(&mut change, (*next - *before).amax());
                 }
                 *at = next;
             }

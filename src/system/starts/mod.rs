@@ -21,6 +21,7 @@ use super::guess::{JointPath, Loop, along};
 use crate::collocation::Mesh;
 use crate::dynamics::JointKind;
 use crate::dynamics::space::Space;
+use crate::numeric::standard_normal;
 use crate::ocp::Interval;
 use crate::problem::Problem;
 use crate::transcription::Discretization;
@@ -381,6 +382,7 @@ fn between(random: &mut fastrand::Rng, range: Interval) -> f64 {
 
 /// A normally distributed number.
 fn normal(random: &mut fastrand::Rng) -> f64 {
-    let (a, b) = (1.0 - random.f64(), random.f64());
-    (-2.0 * a.ln()).sqrt() * (TAU * b).cos()
+    // In (0, 1], so that the logarithm is finite.
+    let radius = 1.0 - random.f64();
+    standard_normal([radius, random.f64()])
 }

@@ -2,7 +2,7 @@
 
 use crate::config::document::quoted;
 use crate::config::{ConfigError, Place};
-use crate::printable::one_line;
+use crate::text::printable::one_line;
 use roxmltree::Node;
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 
 use super::element::Source;
 use crate::config::ConfigError;
-use crate::printable::message;
+use crate::text::printable::message;
 use roxmltree::{Document, Error};
 use std::ops::Range;
 

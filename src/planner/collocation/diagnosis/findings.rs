@@ -2,7 +2,7 @@
 
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
-use crate::largest::largest;
+use crate::numeric::largest_or_nan;
 use crate::ocp::{Interval, Limited};
 use crate::planner::LimitFinding;
 use crate::problem::{LimitId, Problem, Unit};
@@ -120,7 +120,7 @@ fn rotations<Sp: Space>(
                 .sqrt()
         })
         .collect();
-    let largest = largest(turned.iter().copied());
+    let largest = largest_or_nan(turned.iter().copied());
     let limits = &problem.limits;
     [
         (LimitId::BaseAttitude, &limits.base_attitude, largest),

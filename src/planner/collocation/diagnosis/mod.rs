@@ -9,8 +9,8 @@ mod search;
 pub(in crate::planner) use findings::findings;
 
 use crate::dynamics::space::Space;
-use crate::largest::largest;
 use crate::nlp::{Control, Deadline, Statistics};
+use crate::numeric::largest_or_nan;
 use crate::planner::words::cannot_hold;
 use crate::planner::{Diagnosis, Event, LimitFinding, PlanError, floor};
 use crate::problem::Problem;
@@ -154,7 +154,8 @@ fn looked_closer<Sp: Space>(
     };
     second.starts.tried += found.starts.tried;
     second.starts.feasible += found.starts.feasible;
-    let most = |exceeded: &[LimitFinding]| largest(exceeded.iter().map(|limit| limit.excess));
+    let most =
+        |exceeded: &[LimitFinding]| largest_or_nan(exceeded.iter().map(|limit| limit.excess));
     let better = second.trajectory.as_ref().is_some_and(|trajectory| {
         let left = findings(problem, system, &second.limits, trajectory);
         second.converged && most(&left) < most(&exceeded)
@@ -180,11 +181,11 @@ fn in_doubt<'l>(exceeded: &[LimitFinding], limits: &'l [ElasticLimit]) -> Option
     // Of a limit on one side alone, as on the distance to what is kept out, its one bound.
     let size = |found: &LimitFinding| {
         let bounds = [found.bound.lower, found.bound.upper].map(f64::abs);
-        largest(bounds.into_iter().filter(|bound| bound.is_finite()))
+        largest_or_nan(bounds.into_iter().filter(|bound| bound.is_finite()))
     };
     let floors = exceeded.iter().filter_map(|found| found.floor);
     let in_doubt = match floors.reduce(f64::max) {
-        Some(floor) => largest(exceeded.iter().map(works)) > floor * (1.0 + GAP),
+        Some(floor) => largest_or_nan(exceeded.iter().map(works)) > floor * (1.0 + GAP),
         None => (exceeded.iter()).all(|found| found.excess <= CLOSE * size(found)),
     };
     in_doubt.then_some(limit)

@@ -16,12 +16,12 @@ mod search;
 
 use super::joint_motion::{JointMotion, THERE, assemble, duration, goal_missed, rest_to_rest};
 use crate::autodiff::Dual;
-use crate::digits::digits;
 use crate::dynamics::space::Space;
 use crate::dynamics::{Data, JointKind, Tree};
 use crate::planner::{Method, Plan, PlanError};
 use crate::problem::{Problem, ProblemError};
 use crate::system::{FreeFloating, System, quintic, with_system};
+use crate::text::digits::digits;
 use path::{Leg, distance};
 use search::{End, Search};
 use std::cell::RefCell;

@@ -14,6 +14,7 @@ mod switches;
 
 use super::adaptive;
 use crate::collocation::{Mesh, MeshError};
+use crate::numeric::largest_or_nan;
 use crate::ocp::Interval;
 use crate::refine::{Assessment, Decision, Facts, Record, Refined, RefinementLaw, Settings};
 use crate::transcription::{FixedControl, FixedRow, Knot, SmoothState, Structure};
@@ -325,7 +326,7 @@ impl Draft {
 
 /// The median of the largest errors of the segments.
 fn median(by_segment: &[Vec<f64>]) -> f64 {
-    let worst = |row: &Vec<f64>| row.iter().copied().fold(0.0, f64::max);
+    let worst = |row: &Vec<f64>| largest_or_nan(row.iter().copied());
     let mut all: Vec<f64> = by_segment.iter().map(worst).collect();
     all.sort_by(f64::total_cmp);
     all[all.len() / 2]

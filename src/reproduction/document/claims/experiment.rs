@@ -1,10 +1,14 @@
 //! Section IV.B, as far as plans and a model of the platform can speak to it.
 
 use super::{Claim, Findings, Verdict, close, degrees, optional};
+use crate::planner::Method;
 use crate::report::FitReport;
 use crate::reproduction::platform::{Platform, Played};
-use crate::reproduction::{HEAVY, RELAXED};
-use crate::simulate::fit::Comparison;
+use crate::reproduction::{A_RPM, HEAVY, RELAXED};
+use crate::simulate::fit::{Comparison, MeasuredQuantity};
+
+/// The experiments of the platform files, by their names there: under A-RPM and under MATPM.
+const MEASURED: [&str; 2] = ["A-RPM", "MATPM"];
 
 const MATPM: &str =
     "ffsm-ipopt plan config/table1-relaxed.toml --method matpm --out out/table1-relaxed-matpm";
@@ -15,7 +19,7 @@ pub(super) fn experiment(found: &Findings) -> Vec<Claim> {
     let platform = &found.platform;
     let plans = [RELAXED, HEAVY].map(|problem| {
         let by = |method| platform.plan(problem, method);
-        Some([by("a-rpm")?, by("matpm")?])
+        Some([by(A_RPM)?, by(Method::Matpm)?])
     });
     let [Some(light), Some(heavy)] = plans else {
         return Vec::new();
@@ -85,12 +89,15 @@ fn ratio(found: &Findings, light: [&Played; 2], heavy: [&Played; 2]) -> Claim {
 fn returning(platform: &Platform, heavy: &Played) -> Claim {
     let simulated = |report: &FitReport| {
         let (_, fit) = report.best_common()?;
-        let of = |what: &str| {
-            let same = |c: &&Comparison| c.experiment == "A-RPM" && c.what == what;
+        let of = |what| {
+            let same = |c: &&Comparison| c.experiment == MEASURED[0] && c.what == what;
             let found = fit.comparisons.iter().find(same)?;
             Some(found.simulated.abs().to_degrees())
         };
-        Some([of("largest attitude")?, of("final attitude")?])
+        Some([
+            of(MeasuredQuantity::LargestAttitude)?,
+            of(MeasuredQuantity::FinalAttitude)?,
+        ])
     };
     let fitted = platform.fit(true).and_then(simulated);
     let planned = [
@@ -127,11 +134,11 @@ fn returning(platform: &Platform, heavy: &Played) -> Claim {
 /// Final displacements, under A-RPM or under MATPM.
 fn displacement(platform: &Platform, played: &Played, adaptive: bool) -> Claim {
     let [x, y] = played.extremes.final_displacement.map(f64::abs);
-    let experiment = if adaptive { "A-RPM" } else { "MATPM" };
+    let experiment = MEASURED[usize::from(!adaptive)];
     let measured = if adaptive { [3.2, 4.2] } else { [6.5, 13.4] };
     let fitted = platform.best().map_or_else(String::new, |(name, fit)| {
         let lengths: Vec<String> = (fit.comparisons.iter())
-            .filter(|c| c.experiment == experiment && !c.angle)
+            .filter(|c| c.experiment == experiment && !c.what.is_angle())
             .map(|c| format!("{:.1} cm", 100.0 * c.simulated.abs()))
             .collect();
         format!("; {name}: {}", lengths.join(", "))

@@ -1,14 +1,14 @@
 //! Section IV.A: the bounds, and the motion of figure 2.
 
 use super::{Claim, Findings, Verdict, close, degrees, optional};
-use crate::reproduction::HEAVY;
 use crate::reproduction::figures::Extremes;
+use crate::reproduction::{A_RPM, HEAVY};
 
 /// The published bounds on the base attitude.
 pub(super) fn feasible(found: &Findings) -> Claim {
     let bounds = &found.bounds;
     let platform = &found.platform;
-    let heavier = match platform.plan(HEAVY, "a-rpm") {
+    let heavier = match platform.plan(HEAVY, A_RPM) {
         Some(played) if played.solved => format!(
             "; with a base of {} kg m² instead of 0.1454 it holds",
             platform.heavier

@@ -1,11 +1,12 @@
 //! Table II: points and times of both methods.
 
 use super::{Claim, Findings, Verdict};
+use crate::refine::Method;
 use crate::reproduction::table2::{Row, faster, pays};
 
 /// Table II.
 pub(super) fn table(found: &Findings) -> Vec<Claim> {
-    let row = |problem: &str, tolerance: f64, method: &str| {
+    let row = |problem: &str, tolerance: f64, method: Method| {
         found.rows.iter().find(|row| {
             row.problem.ends_with(problem)
                 && row.tolerance == tolerance
@@ -13,27 +14,28 @@ pub(super) fn table(found: &Findings) -> Vec<Claim> {
         })
     };
     let cpu = |row: Option<&Row>| row.map_or(f64::NAN, |row| row.measured.cpu_seconds);
-    let growth = |problem: &str, method: &str| {
+    let growth = |problem: &str, method: Method| {
         cpu(row(problem, 1e-5, method)) / cpu(row(problem, 1e-3, method))
     };
-    let reached = |problem: &str, method: &str| {
+    let reached = |problem: &str, method: Method| {
         row(problem, 1e-5, method).is_some_and(|row| row.measured.reached)
     };
-    let points = |problem: &str, method: &str| {
+    let points = |problem: &str, method: Method| {
         row(problem, 1e-5, method).map_or(0, |row| row.measured.points)
     };
     let fewer = |problem: &str| {
-        reached(problem, "rpm") && points(problem, "rpm") < points(problem, "a-rpm")
+        reached(problem, Method::Global)
+            && points(problem, Method::Global) < points(problem, Method::Adaptive)
     };
     let slower = |problem: &str| {
-        !reached(problem, "rpm")
-            || cpu(row(problem, 1e-5, "rpm")) > cpu(row(problem, 1e-5, "a-rpm"))
+        !reached(problem, Method::Global)
+            || cpu(row(problem, 1e-5, Method::Global)) > cpu(row(problem, 1e-5, Method::Adaptive))
     };
     let ours = |problem: &str| {
-        let end = |method: &str| {
+        let end = |method: Method| {
             format!(
                 "{} {:.3} s{}",
-                method.to_uppercase(),
+                method.name().to_uppercase(),
                 cpu(row(problem, 1e-5, method)),
                 if reached(problem, method) {
                     ""
@@ -42,9 +44,13 @@ pub(super) fn table(found: &Findings) -> Vec<Claim> {
                 }
             )
         };
-        format!("{problem}: {}, {}", end("rpm"), end("a-rpm"))
+        format!(
+            "{problem}: {}, {}",
+            end(Method::Global),
+            end(Method::Adaptive)
+        )
     };
-    let spread = |problem: &str| growth(problem, "a-rpm");
+    let spread = |problem: &str| growth(problem, Method::Adaptive);
     vec![
         Claim {
             claim: "Table II: at 1e-5 the global method takes far longer than A-RPM",
@@ -77,13 +83,13 @@ pub(super) fn table(found: &Findings) -> Vec<Claim> {
             published: "57 against 67 at 1e-5",
             ours: format!(
                 "smooth {} against {}, relaxed {} (error {}) against {}",
-                points("smooth", "rpm"),
-                points("smooth", "a-rpm"),
-                points("relaxed", "rpm"),
-                row("relaxed", 1e-5, "rpm")
+                points("smooth", Method::Global),
+                points("smooth", Method::Adaptive),
+                points("relaxed", Method::Global),
+                row("relaxed", 1e-5, Method::Global)
                     .and_then(|row| row.measured.max_error)
                     .map_or_else(|| "–".into(), |error| format!("{error:.1e}")),
-                points("relaxed", "a-rpm"),
+                points("relaxed", Method::Adaptive),
             ),
             verdict: Verdict::of(fewer("relaxed"), fewer("smooth")),
             why: "on smooth solutions a high degree is the shortest way; layers it never resolves"

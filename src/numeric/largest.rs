@@ -4,16 +4,16 @@
 //! known. Here NaN wins: the result fails every comparison with a tolerance.
 
 /// The largest of `values`, which are at least 0; NaN where one of them is NaN, 0 of none.
-pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn largest_or_nan(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut largest = 0.0;
     for value in values {
-        raise(&mut largest, value);
+        raise_or_nan(&mut largest, value);
     }
     largest
 }
 
 /// Raises `largest` to `value` where that is larger or NaN; a NaN stays.
-pub(crate) fn raise(largest: &mut f64, value: f64) {
+pub(crate) fn raise_or_nan(largest: &mut f64, value: f64) {
     if value.is_nan() || value > *largest {
         *largest = value;
     }
@@ -25,15 +25,15 @@ mod tests {
 
     #[test]
     fn nan_is_not_lost() {
-        assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
-        assert_eq!(largest([]), 0.0);
-        assert_eq!(largest([1.0, f64::INFINITY]), f64::INFINITY);
+        assert_eq!(largest_or_nan([1.0, 3.0, 2.0]), 3.0);
+        assert_eq!(largest_or_nan([]), 0.0);
+        assert_eq!(largest_or_nan([1.0, f64::INFINITY]), f64::INFINITY);
         for values in [
             [f64::NAN, 1.0, 2.0],
             [1.0, f64::NAN, 2.0],
             [1.0, 2.0, f64::NAN],
         ] {
-            assert!(largest(values).is_nan(), "{values:?}");
+            assert!(largest_or_nan(values).is_nan(), "{values:?}");
         }
     }
 }
