@@ -47,6 +47,57 @@ fn one_joint_ends_where_momentum_says() {
     }
 }
 
+/// Whatever sides a bound has, on whatever follows from the joint's position: no search is needed.
+#[test]
+fn what_one_joint_cannot_avoid_is_proven() {
+    for (set, said) in [
+        ("base_attitude=[-0.05, 0.2]", "[-4.33, 11.46]°"),
+        ("base_attitude=[-0.05, inf]", "at least -4.33°"),
+        ("final_base_attitude=[-0.2, -0.1]", "[-11.46, -4.33]°"),
+        ("final_base_attitude=[0.1, 0.2]", "[-4.33, 11.46]°"),
+    ] {
+        let free = "limits.base_attitude=3";
+        let plan = plan(&load(
+            "diagnosis/one.toml",
+            &[free, &format!("limits.{set}")],
+        ))
+        .unwrap();
+        assert_eq!(plan.status, Status::Infeasible, "{set}");
+        let diagnosis = plan.diagnosis.expect("a diagnosis");
+        let summary = &diagnosis.summary;
+        assert!(
+            summary.contains("cannot hold, whatever the motion; ") && summary.contains(said),
+            "{set}: {summary}"
+        );
+        assert_eq!((diagnosis.starts.tried, diagnosis.converged), (1, true));
+    }
+    // What it passes through is no more than it has to.
+    let within = load(
+        "diagnosis/one.toml",
+        &["limits.base_attitude=[-0.0757, 0.0001]"],
+    );
+    assert_eq!(plan(&within).unwrap().status, Status::Solved);
+}
+
+/// A bound next to nothing is answered as one of nothing is.
+#[test]
+fn bounds_next_to_nothing_are_answered() {
+    for bound in ["0.0", "1e-9", "1e-6", "1e-4"] {
+        let set = [
+            "limits.base_attitude=3",
+            &format!("limits.base_rate={bound}"),
+        ];
+        let plan = plan(&load("diagnosis/one.toml", &set)).unwrap();
+        assert_eq!(plan.status, Status::Infeasible, "{bound}");
+        let summary = plan.diagnosis.expect("a diagnosis").summary;
+        // 4.333° in 20 s.
+        assert!(
+            summary.ends_with("the smallest bound that was found to work is ±0.217°/s"),
+            "{bound}: {summary}"
+        );
+    }
+}
+
 #[test]
 fn limits_of_zero_are_answered() {
     // Neither had an answer in a minute.

@@ -21,7 +21,7 @@ def figure(motion: Trajectory, joint_names: Tuple[str, ...]) -> Any:
     )
     drawn, axes = pyplot.subplots(len(charts), sharex=True, figsize=(8, 9), layout="constrained")
     for axis, (label, values, names) in zip(axes, charts):
-        lines = axis.plot(motion.t, values)
+        lines = axis.plot(np.atleast_1d(motion.t), np.atleast_2d(values), "." if motion.t.ndim == 0 else "-")
         axis.set_ylabel(label)
         axis.grid(alpha=0.3)
         if names:

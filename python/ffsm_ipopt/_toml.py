@@ -15,7 +15,9 @@ def document(tables: Values) -> str:
 
 def assignments(values: "Values | None") -> List[str]:
     """``key.path=value`` for each of ``values``."""
-    return [f"{path}={value(entry)}" for path, entry in (values or {}).items()]
+    if values is not None and not isinstance(values, Mapping):
+        raise TypeError(f"values: {values!r}; expected a mapping from keys to values")
+    return [f"{_path(path)}={value(entry)}" for path, entry in (values or {}).items()]
 
 
 def value(entry: Any) -> str:
@@ -25,7 +27,8 @@ def value(entry: Any) -> str:
     if isinstance(entry, bool):
         return "true" if entry else "false"
     if isinstance(entry, int):
-        return str(entry)
+        # What is too long for a whole number of TOML is a number all the same.
+        return str(entry) if -(2**63) <= entry < 2**63 else repr(float(entry))
     if isinstance(entry, float):
         return repr(entry)
     if isinstance(entry, str):
@@ -40,6 +43,14 @@ def value(entry: Any) -> str:
     raise TypeError(
         f"{entry!r}: expected a number, a string, a path, a bool, or lists, arrays and mappings of them"
     )
+
+
+def _path(path: Any) -> str:
+    if not isinstance(path, str):
+        raise TypeError(f"{path!r}: expected a string as a key")
+    if "=" in path:
+        raise ValueError(f"{path!r}: expected a key of the problem file, which has no '='")
+    return path
 
 
 def _key(name: Any) -> str:

@@ -1,14 +1,18 @@
 """Many problems into a data set, as the command ``batch`` plans them."""
 
-import os
 import sys
 from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from . import _native
-from .problem import Path
+from .planning import _whole
+from .problem import Path, _text
 
 #: Begins a process that plans rows.
 _WORKER = [sys.executable, "-m", "ffsm_ipopt._worker"]
+
+
+#: Least limit on the memory of a process, MiB, as the command has it.
+_LEAST_MEMORY = 16
 
 
 class BatchSummary(NamedTuple):
@@ -61,15 +65,23 @@ def _job(
         raise ValueError("retry: takes rows out of the whole folder; give it without shard")
     if memory is not None and not isolate:
         raise ValueError("memory: is a limit of processes; give it with isolate")
+    if memory is not None:
+        memory = _whole("memory", memory, _LEAST_MEMORY)
+    if jobs is not None:
+        jobs = _whole("jobs", jobs, 1)
+    if shard is not None and not (isinstance(shard, tuple) and len(shard) == 2):
+        raise TypeError(f"shard: {shard!r}; expected (i, n), the ith of n shards")
+    if not _text(out):
+        raise ValueError("out: is empty; expected the path of a folder")
     return _Job(
-        os.fspath(batch),
-        os.fspath(out),
+        _text(batch),
+        _text(out),
         shard or (1, 1),
         resume,
         list(retry),
         jobs,
         time_limit,
-        None if start is None else os.fspath(start),
+        None if start is None else _text(start),
         trajectories,
         isolate,
         memory,

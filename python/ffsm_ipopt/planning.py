@@ -1,15 +1,17 @@
 """From problems to plans."""
 
 import json
-import os
+import operator
 from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Tuple, Union
 
 from . import _native
-from .problem import Path, Problem
+from .problem import Path, Problem, _text
 from .solution import Solution, Verification, _numbers
 from .trajectory import Trajectory
 
 _Start = Union[Solution, Path]
+#: Starts of a search, as the command has them.
+_STARTS = 32
 
 
 class Progress(NamedTuple):
@@ -110,16 +112,14 @@ def plan(
         SolutionError: the start is no solution, or belongs to another robot.
         KeyboardInterrupt: it was ended by Ctrl-C.
     """
-    starts = 32 if search is True else int(search)
-    if starts < 0:
-        raise ValueError(f"search: {starts}; expected a number of starts from 1")
+    starts = _STARTS if search is True else _whole("search", search, 0)
 
     def told(values: Tuple[Any, ...]) -> None:
         if on_progress is not None:
             on_progress(Progress(*values))
 
     found = _native.plan(
-        problem._inner,
+        _native_of(problem),
         _start(start),
         (starts, seed) if starts else None,
         method,
@@ -176,7 +176,9 @@ def plan_many(
         if on_record is not None:
             on_record(record)
 
-    natives = [problem._inner for problem in problems]
+    natives = [_native_of(problem) for problem in problems]
+    if jobs is not None:
+        jobs = _whole("jobs", jobs, 1)
     _native.plan_many(natives, jobs, _start(start), trajectories, told)
     records.sort(key=lambda record: record.position)
     return records
@@ -221,9 +223,26 @@ def verify(solution: "Union[Solution, Path]") -> Judgement:
     )
 
 
+def _native_of(problem: Problem) -> _native.Problem:
+    if not isinstance(problem, Problem):
+        raise TypeError(f"problem: {problem!r}; expected a Problem, as Problem.from_toml makes one")
+    return problem._inner
+
+
+def _whole(name: str, value: Any, least: int) -> int:
+    """``value`` as a whole number of at least ``least``."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: {value!r}; expected a whole number from {least}") from None
+    if number < least:
+        raise ValueError(f"{name}: {number}; expected a whole number from {least}")
+    return number
+
+
 def _start(start: Optional[_Start]) -> Optional[_native.Solution]:
     if start is None:
         return None
     if not isinstance(start, Solution):
-        start = Solution.load(os.fspath(start))
+        start = Solution.load(_text(start))
     return start._inner

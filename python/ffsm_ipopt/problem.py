@@ -8,6 +8,11 @@ from . import _native, _toml
 Path = Union[str, "os.PathLike[str]"]
 
 
+def _text(path: Path) -> str:
+    """A path as a string; bytes are one as well."""
+    return os.fsdecode(path)
+
+
 class Problem:
     """A planning problem, validated; cannot be changed.
 
@@ -43,9 +48,9 @@ class Problem:
         """
         over = _toml.assignments(values)
         if isinstance(source, str) and "\n" in source:
-            path = os.path.join(os.fspath(folder), "problem.toml")
+            path = os.path.join(_text(folder), "problem.toml")
             return cls._of(_native.Problem.of_text(path, source, over, True))
-        return cls._of(_native.Problem.load(os.fspath(source), over))
+        return cls._of(_native.Problem.load(_text(source), over))
 
     @classmethod
     def from_dict(cls, tables: _toml.Values, *, folder: Path = ".") -> "Problem":
@@ -55,7 +60,7 @@ class Problem:
             tables: ``{"schema": 1, "robot": "arm.urdf", "task": {...}, ...}``; arrays may be NumPy's.
             folder: the folder from which the path of its robot is counted.
         """
-        path = os.path.join(os.fspath(folder), "problem.toml")
+        path = os.path.join(_text(folder), "problem.toml")
         return cls._of(_native.Problem.of_text(path, _toml.document(tables), [], False))
 
     @classmethod
@@ -66,7 +71,7 @@ class Problem:
         :attr:`text` has them, ``values`` replace them, such as ``{"base.mass": 200.0,
         "task.final.joints": [...]}``.
         """
-        return cls._of(_native.Problem.of_urdf(os.fspath(path), _toml.assignments(values)))
+        return cls._of(_native.Problem.of_urdf(_text(path), _toml.assignments(values)))
 
     def with_values(self, values: _toml.Values) -> "Problem":
         """The problem again with more values laid over it; no file is read."""

@@ -1,14 +1,13 @@
 """What planning came to."""
 
 import json
-import os
 from typing import TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from .problem import Path, Problem
+from .problem import Path, Problem, _text
 from .trajectory import Array, Trajectory
 
 if TYPE_CHECKING:
@@ -159,11 +158,11 @@ class Solution:
         Raises:
             SolutionError: it is none, or does not fit its own problem.
         """
-        return cls._of(_native.Solution.load(os.fspath(path)))
+        return cls._of(_native.Solution.load(_text(path)))
 
     def save(self, path: Path) -> None:
         """Writes a ``solution.json``, all of it or nothing, with problem and robot in it."""
-        self._inner.save(os.fspath(path))
+        self._inner.save(_text(path))
 
     def to_dict(self) -> Dict[str, Any]:
         """The whole ``solution.json``: docs/solution-file.md."""
@@ -353,8 +352,10 @@ class Solution:
             raise ValueError(
                 f"t: {outside.flat[0]} s is not in the motion; expected 0 to {self.duration} s"
             )
-        fractions = np.atleast_1d(times / self.duration)
-        motion = Trajectory(*self._inner.sample(fractions.tolist()))
+        # Without any time the shapes are those of one, cut off.
+        fractions = np.atleast_1d(times / self.duration) if times.size else np.zeros(1)
+        sampled = self._inner.sample(fractions.tolist())
+        motion = Trajectory(*(rows[: times.size] for rows in sampled))
         # The time as it was given: one of a fraction may differ in the last digit.
         exact = np.atleast_1d(times).copy()
         exact.flags.writeable = False

@@ -139,3 +139,21 @@ def test_the_package_has_what_its_names_say():
     assert all(hasattr(ffsm, name) for name in ffsm.__all__)
     with pytest.raises(TypeError):
         ffsm.Problem()
+
+
+def test_arguments_of_another_kind_are_refused_by_name(smooth, tmp_path):
+    with pytest.raises(TypeError, match="problem: .*expected a Problem"):
+        ffsm.plan("case.toml")
+    with pytest.raises(TypeError, match="problem: .*expected a Problem"):
+        ffsm.plan_many([smooth, None])
+    with pytest.raises(TypeError, match="values: 'abc'; expected a mapping"):
+        smooth.with_values("abc")
+    with pytest.raises(ValueError, match="no '='"):
+        smooth.with_values({"task.duration=3 #": 1})
+    with pytest.raises(TypeError, match="search: 1.5; expected a whole number"):
+        ffsm.plan(smooth, search=1.5)
+    with pytest.raises(ValueError, match="jobs: 0; expected a whole number from 1"):
+        ffsm.plan_many([smooth], jobs=0)
+    assert smooth.with_values({"mesh.points": 6.0}).values == ("--set mesh.points=6.0",)
+    text = bytes(CONFIG / "table1-smooth.toml")
+    assert ffsm.Problem.from_toml(text).name == "table1-smooth"

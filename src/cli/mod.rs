@@ -14,6 +14,7 @@ mod init;
 mod interrupt;
 mod log_lines;
 mod man;
+mod out_file;
 mod pareto;
 mod plan;
 mod progress;

@@ -1,12 +1,13 @@
 //! `report`: a saved plan as a page to look at.
 
 use super::failure::Failure;
+use super::out_file::OutFile;
 use super::{Outcome, terminal};
 use crate::report::{Lines, OutputFolder, in_doubt, page};
 use crate::solution::Saved;
 use crate::study::Baselines;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Make a page of a saved plan: its motion played back, charts with their bounds, why to trust it
 #[derive(Debug, Args)]
@@ -22,29 +23,19 @@ pub(super) struct Arguments {
 /// Reads, writes, says where.
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let path = &arguments.solution;
-    let saved = Saved::load(path)?;
-    let problem = &saved.file.problem;
     let beside = || path.with_file_name("report.html");
     let out = arguments.out.clone().unwrap_or_else(beside);
-    let name = out.file_name().and_then(|name| name.to_str());
-    let Some(name) = name.filter(|_| !out.is_dir()) else {
-        return Err(Failure::Usage(format!(
-            "--out {}: expected the name of a file",
-            out.display()
-        )));
-    };
-    let within = match out.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let folder = OutputFolder::create(within)?;
+    let out = OutFile::new(out, &["html", "htm"], path)?;
+    let saved = Saved::load(path)?;
+    let problem = &saved.file.problem;
+    let folder = OutputFolder::create(&out.folder)?;
     let (solution, doubt) = saved.again();
     let baselines = Baselines::of(problem, &saved.plan);
     let drawing = saved.file.appearance.drawing(&saved.file.robot);
     let page = page(&solution, problem, (&saved.plan, &baselines), &drawing);
-    folder.write(name, &page)?;
+    folder.write(&out.name, &page)?;
     let mut lines = Lines::default();
-    lines.files(&[out]);
+    lines.files(&[out.path]);
     let (heading, outcome) = match &doubt {
         Some(doubt) => (
             in_doubt(&problem.name, saved.solution.status, doubt),

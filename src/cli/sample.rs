@@ -2,11 +2,12 @@
 
 use super::export::read;
 use super::failure::Failure;
+use super::out_file::OutFile;
 use super::{Outcome, terminal};
 use crate::report::{FileSet, Lines, OutputFolder};
 use crate::solution::export::{Samples, Times, columns, csv, parquet};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Name of the file beside a solution.
 pub(super) const MOTION: &str = "motion.csv";
@@ -30,14 +31,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let path = &arguments.solution;
     let beside = || path.with_file_name(MOTION);
     let out = arguments.out.clone().unwrap_or_else(beside);
-    let name = out.file_name().and_then(|name| name.to_str());
-    let ends = out.extension().and_then(|ends| ends.to_str());
-    let (Some(name), Some(ends @ ("csv" | "parquet")), false) = (name, ends, out.is_dir()) else {
-        return Err(Failure::Usage(format!(
-            "--out {}: expected the name of a file that ends in .csv or .parquet",
-            out.display()
-        )));
-    };
+    let out = OutFile::new(out, &["csv", "parquet"], path)?;
     let saved = read(path)?;
     let samples = Samples::of(
         &saved.file.problem,
@@ -45,19 +39,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Times::Rate(arguments.rate),
     )
     .map_err(|cause| Failure::Usage(format!("--rate {:?}: {cause}", arguments.rate)))?;
-    let within = match out.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let folder = OutputFolder::create(within)?;
+    let folder = OutputFolder::create(&out.folder)?;
     let columns = columns(&samples);
     let mut files = FileSet::new();
     let failed = super::export::failed(path);
-    match ends {
-        "csv" => files.add(&folder, name, &csv(&columns).map_err(failed)?),
+    match out.ending.as_str() {
+        "csv" => files.add(&folder, &out.name, &csv(&columns).map_err(failed)?),
         _ => files.add_bytes(
             &folder,
-            name,
+            &out.name,
             parquet(&columns, &saved.solution).map_err(failed)?,
         ),
     }

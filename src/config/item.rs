@@ -141,6 +141,8 @@ impl<'a> Item<'a> {
     pub(super) fn count(&self, most: usize) -> Result<usize, ConfigError> {
         match self.node.value {
             Value::Integer(number) => usize::try_from(number).ok(),
+            // As a data set has it, whose columns are of one kind of number.
+            Value::Float(number) if number.fract() == 0.0 && number >= 0.0 => Some(number as usize),
             _ => None,
         }
         .filter(|number| (1..=most).contains(number))
@@ -205,6 +207,9 @@ impl<'a> Section<'a> {
 pub(super) fn hint(name: &str, known: &[&str]) -> String {
     // What is longer is no typing error, and takes its length times theirs to compare.
     const LONGEST: usize = 80;
+    if known.is_empty() {
+        return "there are none".into();
+    }
     let known_short = known.iter().filter(|candidate| candidate.len() <= LONGEST);
     let known_short = known_short.filter(|_| name.len() <= LONGEST);
     let distance = |candidate: &str| strsim::damerau_levenshtein(name, candidate);

@@ -46,6 +46,11 @@ pub struct ProblemFile {
     document: Node,
 }
 
+/// Ipopt's tolerance, unless the file has one, as a part of the mesh's where that is small.
+const SOLVER_TO_MESH: f64 = 1e-4;
+/// The least of it: what rounding lets a solver reach.
+const LEAST_SOLVER_TOLERANCE: f64 = 1e-12;
+
 impl ProblemFile {
     /// Reads and validates the problem file at `path`, and asks whether its task can be carried out
     /// at all.
@@ -276,6 +281,10 @@ fn read(
     if let Some(item) = root.get("mesh") {
         tables::mesh(item, &mut problem.mesh)?;
     }
+    // What Ipopt leaves of its conditions is an error of the motion that no mesh takes away.
+    let tolerance = SOLVER_TO_MESH * problem.mesh.tolerance;
+    let own = problem.solver.tolerance;
+    problem.solver.tolerance = own.min(tolerance.max(LEAST_SOLVER_TOLERANCE));
     if let Some(item) = root.get("solver") {
         let origin = match files {
             Files::Kept(_) => Origin::Kept,

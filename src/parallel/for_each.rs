@@ -50,7 +50,8 @@ fn locked<T>(mutex: &Mutex<T>) -> impl std::ops::DerefMut<Target = T> {
 mod tests {
     use super::for_each;
     use std::panic::{AssertUnwindSafe, catch_unwind};
-    use std::sync::Barrier;
+    use std::sync::{Condvar, Mutex};
+    use std::time::Duration;
 
     #[test]
     fn every_item_once_whatever_the_workers() {
@@ -94,23 +95,48 @@ mod tests {
         });
     }
 
+    /// Whether two threads are here at the same time; not for ever.
+    struct Meeting {
+        here: Mutex<u32>,
+        came: Condvar,
+    }
+
+    impl Meeting {
+        fn is_held(&self) -> bool {
+            let mut here = self.here.lock().unwrap();
+            *here += 1;
+            self.came.notify_all();
+            let enough = Duration::from_secs(1);
+            let alone = |here: &mut u32| *here < 2;
+            let (here, _) = self.came.wait_timeout_while(here, enough, alone).unwrap();
+            *here >= 2
+        }
+    }
+
     #[test]
     fn a_panic_of_either_side_reaches_the_caller_after_all_have_stopped() {
         for which in 0..2 {
-            // The two items wait for each other, so that two threads are needed; the pool has more
-            // than all tests ask for.
-            let together = Barrier::new(2);
-            let mut items = [0, 1];
-            let mut done = [false; 2];
-            let panic = catch_unwind(AssertUnwindSafe(|| {
-                let items = items.iter_mut().zip(done.iter_mut());
-                for_each(&mut [(); 2], items, |(), (item, done)| {
-                    together.wait();
-                    assert_ne!(*item, which, "as planned");
-                    *done = true;
-                });
-            }));
-            let message = panic.unwrap_err();
+            // The two items wait for each other, so that two threads are needed. A helper that other
+            // tests keep changing is not asked: then once more.
+            let tried = (0..20).find_map(|_| {
+                let meeting = Meeting {
+                    here: Mutex::new(0),
+                    came: Condvar::new(),
+                };
+                let mut items = [0, 1];
+                let mut done = [false; 2];
+                let panic = catch_unwind(AssertUnwindSafe(|| {
+                    let items = items.iter_mut().zip(done.iter_mut());
+                    for_each(&mut [(); 2], items, |(), (item, done)| {
+                        if meeting.is_held() {
+                            assert_ne!(*item, which, "as planned");
+                            *done = true;
+                        }
+                    });
+                }));
+                panic.err().map(|payload| (payload, done))
+            });
+            let (message, done) = tried.expect("two threads, once in twenty times");
             let message = message.downcast_ref::<String>().unwrap();
             assert!(message.contains("as planned"), "{message}");
             assert_eq!(done, [which != 0, which != 1]);

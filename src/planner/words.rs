@@ -26,6 +26,18 @@ pub(super) fn cannot_hold(limits: &[LimitFinding], converged: bool) -> String {
     })
 }
 
+/// A sentence that says which limits no motion keeps, and what was found to work in their place.
+pub(super) fn proven(limits: &[LimitFinding]) -> String {
+    sentence(limits, |floor, works| match floor {
+        Some(floor) => {
+            format!("cannot hold; no bound below {floor} can work, {works} was found to")
+        }
+        None => format!(
+            "cannot hold, whatever the motion; the smallest bound that was found to work is {works}"
+        ),
+    })
+}
+
 /// One sentence that says of every limit what `said` makes of the bound below which none can work,
 /// where it is known, and of the one that would hold; limits of the same bound on the same component
 /// share their part of it.
@@ -62,7 +74,11 @@ pub(super) fn sentence(
 fn shown(finding: &LimitFinding, bound: &Interval) -> String {
     let (factor, unit) = finding.unit.readable();
     let number = |value: f64| digits(value * factor, 2, 3);
-    if finding.component == Component::RotationAngle {
+    if let Component::Orientation(_) = finding.component {
+        // Its row is the sine of the angle between the two orientations.
+        let angle = bound.upper.clamp(0.0, 1.0).asin().to_degrees();
+        format!("±{}°", digits(angle, 2, 3))
+    } else if finding.component == Component::RotationAngle {
         format!("{}{unit}", number(bound.upper))
     } else if finding.limit == LimitId::KeepOut {
         format!(
@@ -71,6 +87,10 @@ fn shown(finding: &LimitFinding, bound: &Interval) -> String {
         )
     } else if bound.lower == -bound.upper {
         format!("±{}{unit}", number(bound.upper))
+    } else if bound.lower == f64::NEG_INFINITY {
+        format!("at most {}{unit}", number(bound.upper))
+    } else if bound.upper == f64::INFINITY {
+        format!("at least {}{unit}", number(bound.lower))
     } else {
         format!("[{}, {}]{unit}", number(bound.lower), number(bound.upper))
     }

@@ -88,7 +88,7 @@ impl Unit {
     pub fn readable(self) -> (f64, &'static str) {
         let degrees = 1f64.to_degrees();
         match self {
-            Self::One => (1.0, " 1"),
+            Self::One => (1.0, ""),
             Self::Radian => (degrees, "°"),
             Self::RadianPerSecond => (degrees, "°/s"),
             Self::RadianPerSecondSquared => (degrees, "°/s²"),

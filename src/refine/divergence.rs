@@ -15,10 +15,13 @@ const WILD: f64 = 1.0;
 /// low.
 const GROWING_WILDLY: usize = 2;
 const WILD_GROWTH: f64 = 2.0;
+/// Factor by which a cost grows on the second mesh already where there is no motion to be found: the bounds
+/// that were kept between few points cannot be kept between more.
+const FIRST_GROWTH: f64 = 10.0;
 
 /// Whether no mesh has a smaller error than the first, far above the tolerance, and the cost has
 /// grown: over several meshes, or over fewer where the error is larger than any motion's and
-/// rises.
+/// rises, the fewer the more the cost grows.
 pub(super) fn diverges(records: &[Record], tolerance: f64) -> bool {
     let (first, later) = (&records[0], &records[1..]);
     let rough = |record: &Record| record.max_error >= first.max_error;
@@ -34,9 +37,11 @@ pub(super) fn diverges(records: &[Record], tolerance: f64) -> bool {
         return false;
     };
     let mut pairs = records.windows(2);
-    let is_wild = first.max_error > WILD
-        && later.len() >= GROWING_WILDLY
-        && pairs.all(|pair| pair[1].max_error > pair[0].max_error);
+    let is_wild = first.max_error > WILD && pairs.all(|pair| pair[1].max_error > pair[0].max_error);
+    let growth = match later.len() {
+        GROWING_WILDLY.. => WILD_GROWTH,
+        _ => FIRST_GROWTH,
+    };
     let is_long = later.len() >= GROWING;
-    is_wild && grows(first, last, WILD_GROWTH) || is_long && grows(first, last, GROWTH)
+    is_wild && grows(first, last, growth) || is_long && grows(first, last, GROWTH)
 }

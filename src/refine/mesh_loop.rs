@@ -7,7 +7,7 @@ use super::mesh_solve::{MeshSolver, Previous, Solved};
 use super::transfer::resample;
 use super::violation::worst_of_each;
 use super::{
-    Assessment, CutShort, Event, Facts, Outcome, Record, Refined, RefinementLaw, Settings,
+    Assessment, CutShort, Event, Facts, Method, Outcome, Record, Refined, RefinementLaw, Settings,
     SolveError, Verdict, quadrature_error,
 };
 use crate::nlp::{Control, Progress, Statistics, Status};
@@ -38,7 +38,7 @@ pub(super) struct MeshLoop<'a> {
     accepted: Vec<Record>,
     /// The last mesh that was accepted.
     previous: Option<Previous>,
-    /// The best mesh before that: what counts where the later ones fail.
+    /// The best mesh before: what counts where the later ones fail, or are worse.
     best: Option<Outcome>,
     statistics: Statistics,
 }
@@ -226,7 +226,8 @@ impl<'a> MeshLoop<'a> {
             solved: round.solved,
             assessed: round.assessed,
         });
-        if outcome.converged || self.best.as_ref().is_none_or(|best| !best.converged) {
+        let worse = |best: &Outcome| !best.converged && !best.is_nearer_than(&outcome);
+        if outcome.converged || self.best.as_ref().is_none_or(worse) {
             self.best = Some(outcome);
         }
     }
@@ -234,11 +235,17 @@ impl<'a> MeshLoop<'a> {
     /// The last outcome, or the best before where the last is no better.
     fn finish(&mut self, rejected: bool, outcome: Outcome) -> Outcome {
         let failed = !outcome.status.is_solved();
+        // Of errors that lead nowhere the last says so; the first are no smaller for being right. The
+        // global method is measured by where it comes to.
+        let last = outcome.records.last().map(|record| record.verdict);
+        let last_counts =
+            last == Some(Verdict::Diverging) || self.settings.method == Method::Global;
         let is_better = |best: &mut Outcome| {
             !outcome.converged
                 && (rejected
                     || best.converged
-                    || failed && (outcome.cut_short.is_some() || best.is_accurate()))
+                    || failed && (outcome.cut_short.is_some() || best.is_accurate())
+                    || !failed && !last_counts && best.is_nearer_than(&outcome))
         };
         match self.best.take_if(is_better) {
             Some(best) => best.preferred_to(outcome),

@@ -102,6 +102,19 @@ impl Outcome {
         })
     }
 
+    /// Whether it is nearer to a solution than `other`, both of them solved on their meshes: by the error
+    /// (28), and where both are accurate by how far bounds are exceeded.
+    pub(super) fn is_nearer_than(&self, other: &Self) -> bool {
+        let left = |outcome: &Self, of: fn(&Record) -> f64| {
+            outcome.records.last().map_or(f64::INFINITY, of)
+        };
+        let of: fn(&Record) -> f64 = match (self.is_accurate(), other.is_accurate()) {
+            (true, true) => |record| record.removable_violation,
+            _ => |record| record.max_error,
+        };
+        left(self, of) < left(other, of)
+    }
+
     /// This outcome, `later` being what came of the meshes after it.
     pub(super) fn preferred_to(self, later: Self) -> Self {
         Self {

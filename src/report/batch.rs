@@ -108,6 +108,8 @@ impl BatchReport {
     /// # Errors
     /// [`DataSetError`] where a part cannot be read.
     pub fn of(set: &DataSet) -> Result<Self, DataSetError> {
+        // A row that two parts have would count twice.
+        set.done()?;
         let mut report = Self {
             schema: 1,
             rows: set.manifest().rows,
@@ -139,9 +141,9 @@ impl BatchReport {
         let objectives = numbers(columns, "objective");
         let angles = numbers(columns, "max_base_attitude");
         for (i, status) in statuses.iter().enumerate() {
+            self.done += 1;
             let known = status.as_deref().and_then(RowStatus::of);
             let status = known.map_or("unknown", RowStatus::name);
-            self.done += 1;
             let count = self.statuses.entry(status).or_default();
             *count += 1;
             let key = || keys.get(i).cloned().flatten().unwrap_or_default();

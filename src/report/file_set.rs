@@ -121,10 +121,14 @@ impl FileSet {
     }
 }
 
-/// Whether a file can take the place of what is at `path`.
+/// Whether a file can take the place of what is at `path`: of a file or of a link to one, which is taken
+/// away and not followed, but never of a device or a pipe.
 fn replaceable(path: &Path) -> io::Result<()> {
-    match path.symlink_metadata() {
+    match path.metadata() {
         Ok(found) if found.is_dir() => Err(ErrorKind::IsADirectory.into()),
+        Ok(found) if !found.is_file() => Err(io::Error::other(
+            "a device or a pipe stands there; expected a regular file, or none",
+        )),
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }
@@ -226,6 +230,10 @@ mod tests {
         std::fs::create_dir(place.path().join("b")).unwrap();
         let error = write("3", Some("3")).unwrap_err().to_string();
         assert!(error.contains("/b: cannot be written: "), "{error}");
+        std::fs::remove_dir(place.path().join("b")).unwrap();
+        std::os::unix::fs::symlink("/dev/null", place.path().join("b")).unwrap();
+        let error = write("3", Some("3")).unwrap_err().to_string();
+        assert!(error.contains("a device or a pipe"), "{error}");
         assert_eq!(
             (read("a").as_str(), names(place.path())),
             ("2", vec!["a".into(), "b".into()])

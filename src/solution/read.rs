@@ -183,9 +183,19 @@ pub fn parse_solution(path: &Path, text: &str) -> Result<Solution, SolutionError
         key,
         message,
     };
+    // Some editors put a mark of the byte order first.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut deserializer = serde_json::Deserializer::from_str(text);
-    let solution: Solution = serde_path_to_error::deserialize(&mut deserializer)
-        .map_err(|error| format(message(error.path()), message(error.inner())))?;
+    let solution: Solution =
+        serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
+            let is_whole = error.path().iter().next().is_none();
+            let key = if is_whole {
+                "the file".into()
+            } else {
+                message(error.path())
+            };
+            format(key, message(error.inner()))
+        })?;
     deserializer
         .end()
         .map_err(|error| format("end".into(), message(error)))?;

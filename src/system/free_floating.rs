@@ -81,6 +81,12 @@ impl<Sp: Space> FreeFloating<Sp> {
         }
     }
 
+    /// The same robot with its attitude described in the same way, under the task, the limits and the cost of
+    /// `problem`.
+    pub(crate) fn of(&self, problem: &Problem) -> Self {
+        Self::new(problem, self.plant.tree.clone(), self.plant.attitude)
+    }
+
     /// The dynamics behind the problem.
     pub fn tree(&self) -> &Tree<Sp> {
         &self.plant.tree

@@ -306,8 +306,8 @@ fn one_rule_for_names_wherever_they_come_from() {
     assert_eq!(run.code, 2, "{run:?}");
     assert_eq!(
         run.stderr,
-        "...toml: name: not given, and that of the file is \"..\"; expected letters, digits, '-', \
-         '_' and '.', for it names the output folder\n"
+        "...toml: name: not given, and that of the file is \"..\"; expected at most 120 bytes of \
+         letters, digits, '-', '_', '.' and spaces between them, for it names the output folder\n"
     );
     folder.write("a$(b).toml", &unnamed);
     let run = folder.run(&["plan", "a$(b).toml", "--quiet"]);

@@ -56,7 +56,7 @@ fn other_schema() {
 fn name_that_leaves_the_output_folder() {
     assert_eq!(
         problem("\"case\"", "\"../case\""),
-        "case.toml:2: name: \"../case\"; expected letters, digits, '-', '_' and '.', for it names \
-         the output folder"
+        "case.toml:2: name: \"../case\"; expected at most 120 bytes of letters, digits, '-', '_', \
+         '.' and spaces between them, for it names the output folder"
     );
 }

@@ -26,9 +26,9 @@ fn wrong_types() {
         ),
         (
             "segments = 4",
-            "segments = 4.0",
+            "segments = 4.5",
             21,
-            "mesh.segments: 4.0; expected a whole number from 1 to 100000",
+            "mesh.segments: 4.5; expected a whole number from 1 to 100000",
         ),
         (
             "1e-3",

@@ -196,3 +196,46 @@ fn folders_and_flags() {
         "{damaged}"
     );
 }
+
+#[test]
+fn a_folder_has_rows_of_one_batch_and_every_row_once() {
+    let folder = folder(&edited(BATCH, "count = 12", "count = 4"));
+    plan(&folder, "o", &[]);
+    let part = |out: &str, number: u8| {
+        folder
+            .path()
+            .join(format!("{out}/part-00000{number}.parquet"))
+    };
+    std::fs::copy(part("o", 0), part("o", 7)).unwrap();
+    for arguments in [&[&TO[..], &["--resume"]].concat()[..], &["show", "o"]] {
+        assert_eq!(
+            complaint(&folder, arguments),
+            "o/part-000007.parquet: has row 0, which another part has as well; move the one that is a \
+             copy away"
+        );
+    }
+    std::fs::remove_file(part("o", 7)).unwrap();
+    let other = edited(BATCH, "seed = 5", "seed = 6");
+    folder.write("batch.toml", &edited(&other, "count = 12", "count = 8"));
+    plan(&folder, "p", &[]);
+    std::fs::copy(part("p", 0), part("o", 7)).unwrap();
+    std::fs::remove_file(folder.path().join("o/_batch.json")).unwrap();
+    let refused = complaint(&folder, &[&TO[..], &["--resume"]].concat());
+    assert!(
+        refused.starts_with("o/part-000000.parquet: has rows of another batch: "),
+        "{refused}"
+    );
+    // It leaves the folder to the batch that it is of.
+    assert!(!folder.path().join("o/_batch.json").exists());
+    std::fs::remove_file(part("o", 7)).unwrap();
+    folder.write("batch.toml", &edited(BATCH, "count = 12", "count = 4"));
+    plan(&folder, "o", &["--resume"]);
+    // Rows of a time when the batch had more of them are kept.
+    folder.write("batch.toml", &edited(BATCH, "count = 12", "count = 2"));
+    plan(&folder, "o", &["--retry", "solved"]);
+    folder.write("batch.toml", &edited(BATCH, "count = 12", "count = 4"));
+    assert_eq!(
+        complaint(&folder, &TO),
+        "o: has 4 rows of this batch already; --resume goes on with the rest, or choose another --out"
+    );
+}

@@ -1,6 +1,6 @@
 //! What can be varied, and that it is what the plans were made of.
 
-use crate::program::PROBLEM;
+use crate::program::{PROBLEM, edited};
 use crate::rows::*;
 
 #[test]
@@ -102,7 +102,9 @@ fn json_lines_of_whole_problems() {
     let other = json.replace("\"duration\":20.0", "\"duration\":30.0");
     folder.write(
         "p.jsonl",
-        &format!("{json}\n\n{other}\n{{\"schema\": 1}}\nno JSON\n"),
+        &format!(
+            "\u{feff}{json}\n\n{other}\n{{\"schema\": 1}}\nno JSON\n{{\"schema\": 1, \"schema\": 1}}\n"
+        ),
     );
     let run = folder.run(&[
         "batch",
@@ -122,7 +124,10 @@ fn json_lines_of_whole_problems() {
             .map(|row| row[name].clone())
             .collect::<Vec<_>>()
     };
-    assert_eq!(of("status"), ["solved", "solved", "malformed", "malformed"]);
+    assert_eq!(
+        of("status"),
+        ["solved", "solved", "malformed", "malformed", "malformed"]
+    );
     assert_eq!(of("name")[..2], ["case", "case"]);
     assert!(of("t")[1].ends_with(", 30.0])"), "{}", of("t")[1]);
     assert_eq!(
@@ -134,6 +139,30 @@ fn json_lines_of_whole_problems() {
         "{}",
         of("reason")[3]
     );
+    assert!(
+        of("reason")[4].contains("the key \"schema\" stands twice"),
+        "{}",
+        of("reason")[4]
+    );
+    // Another robot makes other rows.
+    let robot = folder.read("robot.toml");
+    folder.write(
+        "robot.toml",
+        &edited(&robot, "mass = 15.20", "mass = 15.21"),
+    );
+    let run = folder.run(&[
+        "batch",
+        "p.jsonl",
+        "--out",
+        "o",
+        "--trajectories",
+        "--resume",
+    ]);
+    assert!(
+        run.code == 2 && run.stderr.contains("has rows of another batch"),
+        "{run:?}"
+    );
+    folder.write("robot.toml", &robot);
     // Saved with a text of its own, it can be planned again.
     let verified = folder.run(&[
         "verify",

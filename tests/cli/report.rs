@@ -176,6 +176,21 @@ fn pages_that_cannot_be_made_are_refused() {
             "--out o: expected the name of a file",
         ),
         (
+            &["report", "o/solution.json", "--out", "case.toml"],
+            "--out case.toml: expected the name of a file that ends in .html",
+        ),
+        (
+            &[
+                "sample",
+                "o/trajectory.csv",
+                "--rate",
+                "1",
+                "--out",
+                "o/trajectory.csv",
+            ],
+            "--out o/trajectory.csv: expected another file than the one that is read",
+        ),
+        (
             &["report", "o/solution.json", "--out", "case.toml/a.html"],
             "the output folder cannot be written",
         ),

@@ -90,7 +90,7 @@ fn shard(text: &str) -> Result<Shard, &'static str> {
     let parts = text.split_once('/');
     let parts = parts.and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
     let shard = parts.and_then(|(number, of)| Shard::new(number, of));
-    shard.ok_or("expected I/N with I from 1 to N")
+    shard.ok_or("expected I/N with I from 1 to N, and N at most 1000000")
 }
 
 fn status(text: &str) -> Result<RowStatus, String> {

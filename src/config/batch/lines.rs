@@ -1,10 +1,14 @@
 //! JSON lines: a whole problem a line, with the keys of a problem file.
 
 use super::cell::text;
+use super::json::NodeAt;
 use super::vary::MOST_ROWS;
 use crate::config::document::{Node, Value};
 use crate::config::{ConfigError, Place, regular};
+use serde::Deserialize;
+use serde::de::DeserializeSeed;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::fs::FileExt;
@@ -20,6 +24,11 @@ const MOST_LINES: u64 = if MOST_ROWS < 20_000_000 {
     20_000_000
 };
 
+/// Largest file of a robot, bytes.
+const LARGEST_ROBOT: u64 = 64 << 20;
+/// UTF-8 that begins with a mark of the byte order.
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// A file of problems, of which a line is read when it is asked for.
 #[derive(Debug)]
 pub(super) struct Lines {
@@ -27,7 +36,7 @@ pub(super) struct Lines {
     source: Arc<str>,
     /// Where each line begins, its length in bytes, and its number in the file, counted from 1.
     lines: Vec<(u64, u32, u32)>,
-    /// Of all bytes.
+    /// Of all bytes, and of those of the robots' files.
     pub hash: [u8; 32],
 }
 
@@ -48,6 +57,7 @@ impl Lines {
         let mut lines = Vec::new();
         let mut hash = Sha256::new();
         let mut line = Vec::new();
+        let mut robots = BTreeSet::new();
         let (mut at, mut number) = (0_u64, 0_u32);
         loop {
             line.clear();
@@ -63,13 +73,27 @@ impl Lines {
                 )));
             }
             hash.update(&line);
-            if !line.trim_ascii().is_empty() {
-                lines.push((at, length as u32, number));
+            // As in other files of text, some editors put a mark of the byte order before the first line.
+            let mark = if number == 1 && line.starts_with(MARK) {
+                MARK.len()
+            } else {
+                0
+            };
+            let own = &line[mark..];
+            if !own.trim_ascii().is_empty() {
+                lines.push((at + mark as u64, own.len() as u32, number));
+                robots.extend(robot(own));
             }
             if lines.len() as u64 > MOST_LINES {
                 return Err(unreadable(format!("it has more than {MOST_LINES} lines")));
             }
             at += length as u64;
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        for robot in robots {
+            // What cannot be read makes its rows malformed.
+            let bytes = regular::read(&folder.join(&robot), LARGEST_ROBOT).unwrap_or_default();
+            hash.update(Sha256::digest(&bytes));
         }
         match lines.is_empty() {
             true => Err(unreadable("it has no lines".into())),
@@ -101,41 +125,35 @@ impl Lines {
         let mut bytes = vec![0; length as usize];
         let read = self.file.read_exact_at(&mut bytes, at);
         read.map_err(|error| format(error.to_string()))?;
-        let json: serde_json::Value =
-            serde_json::from_slice(&bytes).map_err(|error| format(format!("not JSON: {error}")))?;
-        match node(&json, &place) {
-            Some(node) if json.is_object() => Ok(node),
-            Some(_) => Err(format(
+        let mut json = serde_json::Deserializer::from_slice(&bytes);
+        let read = NodeAt(&place)
+            .deserialize(&mut json)
+            .and_then(|node| json.end().map(|()| node));
+        match read {
+            Ok(node) if matches!(node.value, Value::Table(_)) => Ok(node),
+            Ok(_) => Err(format(
                 "expected an object with the keys of a problem file".into(),
             )),
-            None => Err(format("null; expected no key, or a value".into())),
+            Err(error) => Err(format(format!("not JSON: {error}"))),
         }
     }
 }
 
-/// The same as a document; `None` where there is a null in it.
-fn node(json: &serde_json::Value, place: &Place) -> Option<Node> {
-    use serde_json::Value as Json;
-    let value = match json {
-        Json::Null => return None,
-        Json::Bool(yes) => Value::Boolean(*yes),
-        Json::Number(number) => match number.as_i64() {
-            Some(whole) => Value::Integer(whole),
-            None => Value::Float(number.as_f64()?),
-        },
-        Json::String(text) => Value::Text(text.clone()),
-        Json::Array(all) => Value::Array(
-            all.iter()
-                .map(|one| node(one, place))
-                .collect::<Option<_>>()?,
-        ),
-        Json::Object(entries) => {
-            let entry = |(key, value)| Some((String::clone(key), node(value, place)?));
-            Value::Table(entries.iter().map(entry).collect::<Option<_>>()?)
-        }
-    };
-    let place = place.clone();
-    Some(Node { place, value })
+/// The file of the robot that a line names, where it does.
+fn robot(line: &[u8]) -> Option<String> {
+    #[derive(Deserialize)]
+    struct Named {
+        robot: Robot,
+    }
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Robot {
+        Path(String),
+        Table { file: String },
+    }
+    match serde_json::from_slice::<Named>(line).ok()?.robot {
+        Robot::Path(path) | Robot::Table { file: path } => Some(path),
+    }
 }
 
 /// A document as TOML, a key of the outermost table a line.
@@ -175,11 +193,13 @@ mod tests {
             "a b": {"c": [1.5, 1e-30, 2], "d": "x\"\u{7f}\n", "e": true, "f": {}},
             "list": [{"x": 1}, {"x": -0.25}],
         });
+        let json = json.to_string();
         let place = Place {
             source: "p.jsonl".into(),
             line: Some(3),
         };
-        let document = node(&json, &place).unwrap();
+        let mut json = serde_json::Deserializer::from_str(&json);
+        let document = NodeAt(&place).deserialize(&mut json).unwrap();
         let again = Node::parse(&"p.toml".into(), &toml(&document)).unwrap();
         assert_eq!(toml(&again), toml(&document));
         let Value::Table(entries) = &again.value else {

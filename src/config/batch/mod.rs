@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `cell` | one value of a key |
 //! | `draw` | seeded random values |
+//! | `json` | JSON as a document |
 //! | `lines` | JSON lines of whole problems |
 //! | `read` | the tables of a batch file |
 //! | `table` | columns of CSV and Parquet files |
@@ -13,6 +14,7 @@
 
 mod cell;
 mod draw;
+mod json;
 mod lines;
 mod read;
 mod table;

@@ -50,7 +50,8 @@ pub(super) fn sweep(root: &Section<'_>, tables: &mut Tables<'_>) -> Result<Sweep
 
 /// Rows of the batch.
 fn count(root: &Section<'_>, vary: &[Vary], whole: &Item<'_>) -> Result<u64, ConfigError> {
-    let product = Sweep::product(vary).filter(|product| *product <= MOST_ROWS);
+    // What no number of 64 bits counts is more than any count that is given.
+    let product = Sweep::product(vary).unwrap_or(u64::MAX);
     let given = root.get("count");
     let given = given.map(|item| Ok((item.count(MOST_ROWS as usize)? as u64, item)));
     match (given.transpose()?, product) {
@@ -58,15 +59,16 @@ fn count(root: &Section<'_>, vary: &[Vary], whole: &Item<'_>) -> Result<u64, Con
         (None, _) if Sweep::draws(vary) => {
             Err(root.missing("count", "how many rows to draw, a whole number from 1"))
         }
-        (None, Some(product)) => Ok(product),
-        (Some((count, _)), Some(product)) if count <= product => Ok(count),
-        (Some((_, item)), Some(product)) => {
+        (Some((count, _)), product) if count <= product => Ok(count),
+        (Some((_, item)), product) => {
             let expected = format!("at most {product}, as many rows as there are different ones");
             Err(item.unexpected(expected))
         }
-        (_, None) => {
+        (None, product) if product <= MOST_ROWS => Ok(product),
+        (None, _) => {
             let found = "more combinations of values";
-            Err(whole.error(found, format!("at most {MOST_ROWS} rows")))
+            let expected = format!("at most {MOST_ROWS} rows, or count, how many of them to plan");
+            Err(whole.error(found, expected))
         }
     }
 }

@@ -5,7 +5,7 @@ use super::vary::MOST_ROWS;
 use crate::config::document::quoted;
 use crate::config::item::{Item, hint};
 use crate::config::{ConfigError, Place, regular};
-use parquet::basic::ConvertedType;
+use parquet::basic::{CompressionCodec, ConvertedType, LogicalType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -96,15 +96,58 @@ fn unreadable(error: impl ToString) -> Trouble {
     Trouble::Unreadable(error.to_string())
 }
 
+/// Where the one column named `wanted` stands among `names`.
+fn only<'n>(names: impl Iterator<Item = &'n str>, wanted: &str) -> Result<usize, Trouble> {
+    let names: Vec<&str> = names.collect();
+    let mut found = (0..names.len()).filter(|at| names[*at] == wanted);
+    match (found.next(), found.next()) {
+        (Some(at), None) => Ok(at),
+        (Some(_), Some(_)) => Err(Trouble::Unreadable(format!(
+            "it has the column {} twice",
+            quoted(wanted)
+        ))),
+        (None, _) => Err(Trouble::NoColumn(
+            names.into_iter().map(str::to_owned).collect(),
+        )),
+    }
+}
+
+/// What the values of a column are.
+enum Kind {
+    Number,
+    Text,
+}
+
+/// That of a Parquet column by its old and its new type; `None` for dates, times and the like, which are
+/// kept as numbers and are none.
+fn kind(converted: ConvertedType, logical: Option<&LogicalType>) -> Option<Kind> {
+    match (converted, logical) {
+        (ConvertedType::UTF8, _) | (_, Some(LogicalType::String)) => Some(Kind::Text),
+        (_, Some(LogicalType::Integer(of))) if of.is_signed || of.bit_width < 32 => {
+            Some(Kind::Number)
+        }
+        (_, Some(_)) => None,
+        (
+            ConvertedType::NONE
+            | ConvertedType::INT_8
+            | ConvertedType::INT_16
+            | ConvertedType::INT_32
+            | ConvertedType::INT_64
+            | ConvertedType::UINT_8
+            | ConvertedType::UINT_16,
+            None,
+        ) => Some(Kind::Number),
+        _ => None,
+    }
+}
+
 fn csv(path: &Path, wanted: &str) -> Result<Vec<Cell>, Trouble> {
     let bytes = regular::read(path, LARGEST).map_err(Trouble::Unreadable)?;
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .from_reader(&bytes[..]);
     let names = reader.headers().map_err(unreadable)?.clone();
-    let Some(at) = names.iter().position(|name| name == wanted) else {
-        return Err(Trouble::NoColumn(names.iter().map(str::to_owned).collect()));
-    };
+    let at = only(names.iter(), wanted)?;
     let mut texts = Vec::new();
     for record in reader.records() {
         let record = record.map_err(unreadable)?;
@@ -112,13 +155,14 @@ fn csv(path: &Path, wanted: &str) -> Result<Vec<Cell>, Trouble> {
     }
     let number = |text: &String| text.parse::<f64>().ok().filter(|number| number.is_finite());
     let numbers: Vec<Option<f64>> = texts.iter().map(number).collect();
-    let is_number = numbers.first().is_some_and(Option::is_some);
+    // One that is too large or none at all is meant as a number all the same.
+    let is_number = texts.iter().any(|text| text.parse::<f64>().is_ok());
     let fits = |row: usize| numbers[row].is_some() == is_number && !texts[row].is_empty();
     if let Some(row) = (0..texts.len()).find(|row| !fits(*row)) {
         let kind = if is_number {
             "a finite number"
         } else {
-            "a text that is no number"
+            "a text that is not empty"
         };
         let found = quoted(&texts[row]);
         let message = format!("row {row} of the column has {found}; expected {kind}");
@@ -134,20 +178,34 @@ fn parquet(path: &Path, wanted: &str) -> Result<Vec<Cell>, Trouble> {
     let reader = SerializedFileReader::new(file).map_err(unreadable)?;
     let metadata = reader.metadata();
     let schema = metadata.file_metadata().schema_descr_ptr();
-    let names = || schema.columns().iter().map(|column| column.path().string());
-    let Some(at) = names().position(|name| name == wanted) else {
-        return Err(Trouble::NoColumn(names().collect()));
-    };
+    let names: Vec<String> = schema
+        .columns()
+        .iter()
+        .map(|column| column.path().string())
+        .collect();
+    let at = only(names.iter().map(String::as_str), wanted)?;
     let column = schema.column(at);
+    let text = match kind(column.converted_type(), column.logical_type_ref()) {
+        Some(Kind::Text) => true,
+        Some(Kind::Number) => false,
+        None => return Err(unreadable("the column has neither numbers nor text")),
+    };
     if column.max_rep_level() > 0 {
         return Err(unreadable("the column has lists; expected numbers or text"));
     }
     let levels = column.max_def_level() > 0;
-    let text = matches!(column.converted_type(), ConvertedType::UTF8);
     let mut cells = Vec::new();
     for group in 0..metadata.num_row_groups() {
         let group = reader.get_row_group(group).map_err(unreadable)?;
         let size = group.metadata().column(at).uncompressed_size();
+        let packed = group.metadata().column(at).compression_codec();
+        if !matches!(
+            packed,
+            CompressionCodec::UNCOMPRESSED | CompressionCodec::SNAPPY
+        ) {
+            let packed = format!("it is compressed by {packed}; expected snappy, or nothing");
+            return Err(Trouble::Unreadable(packed));
+        }
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         if size > LARGEST_COLUMN || (cells.len() + rows) as u64 > MOST_ROWS {
             return Err(unreadable("the column is too large"));

@@ -192,12 +192,16 @@ fn positive(distribution: Distribution, nominal: f64) -> Distribution {
     }
 }
 
-/// Whether `pattern`, in which `*` stands for any one name, is `key`. Names may have dots.
+/// Whether `pattern`, in which `*` stands for the name of any body or joint, is `key`. Names may have dots.
 fn is_meant(pattern: &str, key: &str) -> bool {
     match pattern.split_once('*') {
         None => pattern == key,
         Some((head, tail)) => {
-            key.len() > head.len() + tail.len() && key.starts_with(head) && key.ends_with(tail)
+            let for_a_name = matches!(head, "body." | "joint.") && tail.starts_with('.');
+            for_a_name
+                && key.len() > head.len() + tail.len()
+                && key.starts_with(head)
+                && key.ends_with(tail)
         }
     }
 }

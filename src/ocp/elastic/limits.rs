@@ -110,6 +110,11 @@ impl<Q> ElasticBound<Q> {
     }
 }
 
+/// Bounds below this, in their unit, are next to nothing.
+const TINY: f64 = 1e-3;
+/// What counts as one in a quantity whose bound was next to nothing.
+const GIVEN_WAY: f64 = 1e-2;
+
 impl<'a, O: Ocp> Elastic<'a, O> {
     /// `inner` with `groups` made elastic.
     pub fn new(inner: &'a O, groups: Vec<LimitGroup>, regularization: f64) -> Self {
@@ -210,8 +215,16 @@ impl<'a, O: Ocp> Elastic<'a, O> {
     /// The two rows of one elastic bound: value − e·scale and value + e·scale.
     pub(super) fn rows(&self, of: &Quantity, group: usize, bounds: Interval) -> [Quantity; 2] {
         let (name, limit) = (&of.name, &self.groups[group].name);
+        let largest = [bounds.lower, bounds.upper]
+            .map(f64::abs)
+            .into_iter()
+            .filter(|bound| bound.is_finite())
+            .fold(0.0, f64::max);
+        // What is left of a bound next to nothing once it has given way is of another size.
+        let size = (0.0 < largest && largest < TINY).then_some(GIVEN_WAY);
         let row = |side: &str, bounds| Quantity {
             scale: of.scale,
+            size,
             ..Quantity::new(format!("{name} {side} {limit}"), bounds)
         };
         [

@@ -8,7 +8,8 @@ use super::{bound_warnings, diagnosis, retarget};
 use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, ipopt};
-use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Status, Timing};
+use crate::planner::words::proven;
+use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Starts, Status, Timing, floor};
 use crate::problem::Problem;
 use crate::refine::{CutShort, Outcome, Refinement, Start, Verdict, midpoint_errors};
 use crate::system::{
@@ -174,6 +175,9 @@ impl<Sp: Space> Search<'_, Sp> {
         given: Option<&Start>,
         monitor: &mut dyn FnMut(&Event<'_>) -> Control,
     ) -> Result<Found, PlanError> {
+        if let Some(found) = self.along_the_only_path(monitor)? {
+            return Ok(found);
+        }
         let start = straight(self.problem, self.system)?;
         let mut first = self.refine_within(given.unwrap_or(&start), monitor)?;
         let misled = first.status == Status::NotConverged && asks_why(&first.outcome, self.solver);
@@ -219,6 +223,51 @@ impl<Sp: Space> Search<'_, Sp> {
             iterate: None,
         };
         Ok(self.refine(&again, monitor)?.after(outcome))
+    }
+
+    /// The answer for an arm whose only path exceeds a limit on the base's pose: a motion along it, all
+    /// other limits kept. `None` where it exceeds none, and where the others leave no such motion.
+    fn along_the_only_path(
+        &self,
+        monitor: &mut dyn FnMut(&Event<'_>) -> Control,
+    ) -> Result<Option<Found>, PlanError> {
+        let (problem, system) = (self.problem, self.system);
+        let Some(path) = diagnosis::OnlyPath::of(problem, system)? else {
+            return Ok(None);
+        };
+        let freed = path.freed(problem)?;
+        let freed_system = system.of(&freed);
+        let search = Search {
+            problem: &freed,
+            system: &freed_system,
+            patterns: &Patterns::detect(&freed_system),
+            solver: self.solver,
+            deadline: self.deadline,
+        };
+        let found = search.refine_within(&straight(&freed, &freed_system)?, monitor)?;
+        match found.status {
+            Status::Solved => {}
+            Status::Interrupted => return Ok(Some(found)),
+            _ => return Ok(None),
+        }
+        let limits = path.findings(problem, system, &found.outcome.trajectory);
+        let Some(mut limits) = limits.filter(|limits| !limits.is_empty()) else {
+            return Ok(None);
+        };
+        floor::add(problem, system, &mut limits);
+        Ok(Some(Found {
+            status: Status::Infeasible,
+            diagnosis: Some(Diagnosis {
+                summary: proven(&limits),
+                limits,
+                starts: Starts {
+                    tried: 1,
+                    feasible: 1,
+                },
+                converged: true,
+            }),
+            ..found
+        }))
     }
 
     /// Refines from `start`, led within the limits on the base first where it has no multipliers.

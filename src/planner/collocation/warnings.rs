@@ -84,16 +84,23 @@ fn discarded(outcome: &Outcome) -> Option<String> {
         Some(_) => return None,
         None => {}
     }
+    let last = outcome.records.last().map(|record| record.verdict);
+    let failed = match last {
+        Some(Verdict::AboveTolerance) => {
+            "tried for the sake of the tolerance, did not come nearer to it"
+        }
+        _ => "tried for the sake of limits between the points, did not converge",
+    };
     (count > 0).then(|| {
         format!(
-            "{count} finer {meshes}, tried for the sake of limits between the points, did not \
-             converge; this is the plan before, the time is that of all"
+            "{count} finer {meshes}, {failed}; this is the plan before, the time is that of all"
         )
     })
 }
 
 /// A word about a number of meshes, or of points, that ended the refinement.
 fn too_few_meshes(outcome: &Outcome, settings: &refine::Settings) -> Option<String> {
+    let tried = outcome.records.len() + outcome.discarded.len();
     let last = outcome.records.last()?;
     // Of a limit that is exceeded between the points its own warning says so.
     if last.verdict != Verdict::AboveTolerance || outcome.cut_short.is_some() {
@@ -103,7 +110,7 @@ fn too_few_meshes(outcome: &Outcome, settings: &refine::Settings) -> Option<Stri
     match settings.method {
         Method::Adaptive => {
             let most = settings.max_iterations?;
-            (outcome.records.len() >= most).then(|| {
+            (tried >= most).then(|| {
                 format!(
                     "mesh.max_iterations = {most} ended the refinement before it had come to the \
                      tolerance {tolerance:e}; leave it out for as many meshes as it takes"

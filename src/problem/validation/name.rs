@@ -6,8 +6,8 @@ use super::checks::{Checked, error};
 const LONGEST: usize = 120;
 
 /// What makes a name, for messages.
-pub(crate) const EXPECTED: &str =
-    "letters, digits, '-', '_' and '.', for it names the output folder";
+pub(crate) const EXPECTED: &str = "at most 120 bytes of letters, digits, '-', '_', '.' and spaces \
+     between them, for it names the output folder";
 
 /// Whether `name` names a folder within another one, and nothing else.
 pub(crate) fn is_name(name: &str) -> bool {

@@ -69,6 +69,8 @@ const PATIENT: usize = 6;
 const RECENT: usize = 3;
 /// Part of the best error before to which a later one has to fall for there to be progress.
 const PROGRESS: f64 = 0.7;
+/// Factor by which an error may be larger than that before and yet count as falling with it.
+const HARDLY_MORE: f64 = 1.1;
 /// Relative change of the cost over the last meshes above which the solution itself still moves: the error
 /// is then that of another motion each time.
 const MOVES: f64 = 3e-5;
@@ -76,8 +78,8 @@ const MOVES: f64 = 3e-5;
 /// is not smooth there, and the segment is divided.
 const SMOOTH: f64 = 0.3;
 
-/// Whether the last meshes brought the error hardly down; where it is within the tolerance, how far
-/// bounds are exceeded.
+/// Whether the last meshes neither brought the error below what it was before them nor bring it down from
+/// one to the next; where it is within the tolerance, how far bounds are exceeded.
 fn has_stalled(records: &[Record], tolerance: f64) -> bool {
     if records.len() < PATIENT.max(RECENT + 1) {
         return false;
@@ -90,9 +92,14 @@ fn has_stalled(records: &[Record], tolerance: f64) -> bool {
     };
     let best = |records: &[Record]| records.iter().map(size).fold(f64::INFINITY, f64::min);
     let (before, recent) = records.split_at(records.len() - RECENT);
+    // One mesh that was lucky is no measure for those after it.
+    let falls = recent
+        .windows(2)
+        .all(|pair| size(&pair[1]) <= HARDLY_MORE * size(&pair[0]))
+        && size(&recent[RECENT - 1]) <= PROGRESS * size(&recent[0]);
     let (from, to) = (recent[0].objective, recent[RECENT - 1].objective);
     let moves = !by_bounds && (to - from).abs() > MOVES * to.abs();
-    best(recent) > PROGRESS * best(before) && !moves
+    best(recent) > PROGRESS * best(before) && !moves && !falls
 }
 
 #[derive(Debug)]

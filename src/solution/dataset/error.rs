@@ -8,6 +8,17 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DataSetError {
+    /// A folder that cannot be made.
+    #[error(
+        "{}: cannot be made: {cause}; expected a folder to write the data set to",
+        path.display()
+    )]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system says.
+        cause: io::Error,
+    },
     /// A folder or file that cannot be written. What was written before is whole.
     #[error(
         "{}: cannot be written: {cause}; the rows before are kept, --resume goes on from there",
@@ -46,6 +57,17 @@ pub enum DataSetError {
         /// What is wrong with it.
         reason: String,
     },
+    /// A part file with a row that another has as well.
+    #[error(
+        "{}: has row {row}, which another part has as well; move the one that is a copy away",
+        path.display()
+    )]
+    Twice {
+        /// The file.
+        path: PathBuf,
+        /// The row.
+        row: i64,
+    },
     /// A folder without a data set.
     #[error("{}: holds no data set; expected a folder that batch --out wrote to", path.display())]
     Missing {
@@ -70,10 +92,10 @@ pub enum DataSetError {
         /// How many.
         rows: u64,
     },
-    /// A folder that has rows of something else.
+    /// A folder or a part that has rows of something else.
     #[error("{}: has rows of another batch: {what} differ; choose another --out", path.display())]
     Other {
-        /// The folder.
+        /// The folder, or the file.
         path: PathBuf,
         /// What is not the same.
         what: &'static str,
@@ -84,16 +106,24 @@ impl DataSetError {
     /// The file or folder that it is about.
     pub fn path(&self) -> &Path {
         match self {
-            Self::Write { path, .. }
+            Self::Folder { path, .. }
+            | Self::Write { path, .. }
             | Self::Encode { path, .. }
             | Self::Read { path, .. }
             | Self::Damaged { path, .. }
+            | Self::Twice { path, .. }
             | Self::Missing { path }
             | Self::Locked { path }
             | Self::Begun { path, .. }
             | Self::Other { path, .. } => path,
         }
     }
+}
+
+/// The failure of making the folder at `path`.
+pub(super) fn folder(path: &Path) -> impl FnOnce(io::Error) -> DataSetError {
+    let path = path.to_path_buf();
+    |cause| DataSetError::Folder { path, cause }
 }
 
 /// The failure of writing at `path`.

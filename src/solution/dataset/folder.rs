@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 
 const PREFIX: &str = "part-";
 const ENDING: &str = ".parquet";
+/// Where a part has its manifest.
+const BATCH: &str = "ffsm.batch";
 /// Columns that have a value in every row.
 const REQUIRED: [&str; 3] = [ROW, "key", STATUS];
 
@@ -74,20 +76,47 @@ impl DataSet {
         Ok(())
     }
 
-    /// Which rows are done.
+    /// Which rows are done. Every part is looked at: a file that was copied here need not be of this batch,
+    /// and may have rows that are here already.
     ///
     /// # Errors
-    /// [`DataSetError`] where a part cannot be read.
+    /// [`DataSetError`] where a part cannot be read, is of another batch, or has a row of another part.
     pub fn done(&self) -> Result<Done, DataSetError> {
         let mut done = Done::default();
-        self.read(&[ROW], &mut |columns| {
-            if let Some(Data::Integer(rows)) = columns.into_iter().next().map(|c| c.data) {
-                rows.into_iter()
-                    .flatten()
-                    .for_each(|row| done.insert(row as u64));
+        for path in self.parts()? {
+            self.check(&path)?;
+            let columns = read(&path, Some(&[ROW]))?;
+            let rows = columns.into_iter().next().map(|column| column.data);
+            let Some(Data::Integer(rows)) = rows else {
+                continue;
+            };
+            for row in rows.into_iter().flatten() {
+                if !done.insert(row as u64) {
+                    return Err(DataSetError::Twice { path, row });
+                }
             }
-        })?;
+        }
         Ok(done)
+    }
+
+    /// Whether the part at `path` is of this batch.
+    fn check(&self, path: &Path) -> Result<(), DataSetError> {
+        let damaged = |reason: String| DataSetError::Damaged {
+            path: path.into(),
+            reason,
+        };
+        let file = File::open(path).map_err(error::read(path))?;
+        let found = part_read::metadata(file, BATCH).map_err(|error| damaged(error.to_string()))?;
+        let found = found.ok_or_else(|| damaged("it does not say of which batch it is".into()))?;
+        let found: Manifest =
+            serde_json::from_str(&found).map_err(|error| damaged(error.to_string()))?;
+        match found.difference(&self.manifest) {
+            Some(what) => Err(DataSetError::Other {
+                path: path.into(),
+                what,
+            }),
+            None => Ok(()),
+        }
     }
 
     /// The part files, sorted.
@@ -114,14 +143,17 @@ fn read(path: &Path, names: Option<&[&str]>) -> Result<Vec<Column>, DataSetError
 }
 
 impl Done {
-    fn insert(&mut self, row: u64) {
+    /// Takes up a row; whether it is new.
+    fn insert(&mut self, row: u64) -> bool {
         let word = (row / 64) as usize;
         if word >= self.bits.len() {
             self.bits.resize(word + 1, 0);
         }
         let bit = 1 << (row % 64);
-        self.rows += u64::from(self.bits[word] & bit == 0);
+        let is_new = self.bits[word] & bit == 0;
+        self.rows += u64::from(is_new);
         self.bits[word] |= bit;
+        is_new
     }
 
     /// Whether the row at that position is.
@@ -149,19 +181,13 @@ impl Writer {
         shard: Shard,
         resume: bool,
     ) -> Result<(Self, Done), DataSetError> {
-        std::fs::create_dir_all(folder).map_err(error::write(folder))?;
+        std::fs::create_dir_all(folder).map_err(error::folder(folder))?;
         let lock = Lock::take(folder, shard)?;
         let path = || folder.to_path_buf();
-        match Manifest::read(folder)? {
-            None => manifest.write(folder)?,
-            Some(there) => {
-                if let Some(what) = there.difference(&manifest) {
-                    return Err(DataSetError::Other { path: path(), what });
-                }
-                if there.rows < manifest.rows {
-                    manifest.write(folder)?;
-                }
-            }
+        let there = Manifest::read(folder)?;
+        let difference = there.as_ref().and_then(|there| there.difference(&manifest));
+        if let Some(what) = difference {
+            return Err(DataSetError::Other { path: path(), what });
         }
         let set = DataSet {
             folder: path(),
@@ -172,6 +198,10 @@ impl Writer {
         let rows = own.filter(|row| done.has(*row)).count() as u64;
         if rows > 0 && !resume {
             return Err(DataSetError::Begun { path: path(), rows });
+        }
+        // Not before: a run that is refused leaves the folder to that which it is of.
+        if there.is_none_or(|there| there.rows < set.manifest.rows) {
+            set.manifest.write(folder)?;
         }
         let mut writer = Self {
             set,
@@ -235,7 +265,7 @@ impl Writer {
         let manifest = &self.set.manifest;
         let metadata = [
             ("ffsm.schema", manifest.schema.to_string()),
-            ("ffsm.batch", manifest.json()),
+            (BATCH, manifest.json()),
         ];
         let bytes = part_write::write(Vec::new(), columns, &REQUIRED, &metadata);
         let path = self.set.folder.join(name);
@@ -259,22 +289,27 @@ impl Writer {
     }
 
     /// Takes the rows that ended as one of `statuses` out of the data set, to be planned again; how
-    /// many there were.
+    /// many there were. Rows beyond those of this batch, of a time when it had more, stay.
     ///
     /// # Errors
     /// [`DataSetError`]; rows that are not yet taken out are kept.
     pub fn retract(&mut self, statuses: &[RowStatus]) -> Result<u64, DataSetError> {
         let mut taken = 0;
         for path in self.set.parts()? {
-            let ended = read(&path, Some(&[STATUS]))?;
-            let Some(Data::Text(ended)) = ended.into_iter().next().map(|c| c.data) else {
+            let [ended, rows] = [STATUS, ROW].map(|name| read(&path, Some(&[name])));
+            let first = |columns: Vec<Column>| columns.into_iter().next().map(|c| c.data);
+            let (Some(Data::Text(ended)), Some(Data::Integer(rows))) =
+                (first(ended?), first(rows?))
+            else {
                 continue;
             };
-            let goes = |name: &Option<String>| {
+            let goes = |name: &Option<String>, row: Option<i64>| {
                 let status = name.as_deref().and_then(RowStatus::of);
                 status.is_some_and(|status| statuses.contains(&status))
+                    && row.is_some_and(|row| (row as u64) < self.set.manifest.rows)
             };
-            let keep: Vec<bool> = ended.iter().map(|name| !goes(name)).collect();
+            let ended = ended.iter().zip(rows);
+            let keep: Vec<bool> = ended.map(|(name, row)| !goes(name, row)).collect();
             let gone = keep.iter().filter(|keep| !**keep).count() as u64;
             if gone == 0 {
                 continue;

@@ -8,6 +8,14 @@ use parquet::errors::{ParquetError, Result};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::fs::File;
 
+/// What a file has in its metadata at `key`.
+pub(super) fn metadata(file: File, key: &str) -> Result<Option<String>> {
+    let reader = SerializedFileReader::new(file)?;
+    let pairs = reader.metadata().file_metadata().key_value_metadata();
+    let pair = pairs.and_then(|pairs| pairs.iter().find(|pair| pair.key == key));
+    Ok(pair.and_then(|pair| pair.value.clone()))
+}
+
 /// The columns named `wanted` of a file, or all; those that it does not have are left out.
 pub(super) fn read(file: File, wanted: Option<&[&str]>) -> Result<Vec<Column>> {
     let reader = SerializedFileReader::new(file)?;

@@ -204,8 +204,11 @@ impl Worker {
         stopped: &dyn Fn() -> bool,
     ) -> Result<String, Silence> {
         loop {
-            match self.replies.recv_timeout(LOOK) {
-                Ok(line) => return Ok(line),
+            let said = self.replies.recv_timeout(LOOK);
+            let taken = memory.and_then(|most| peak(self.child.id()).filter(|n| *n > most));
+            match said {
+                // However quick the row was, so that the same rows fit every time.
+                Ok(line) => return taken.map_or(Ok(line), |bytes| Err(Silence::TooLarge(bytes))),
                 Err(RecvTimeoutError::Disconnected) => {
                     return Err(match self.child.wait() {
                         Ok(status) => Silence::Ended(status),
@@ -214,7 +217,6 @@ impl Worker {
                 }
                 Err(RecvTimeoutError::Timeout) => {}
             }
-            let taken = memory.and_then(|most| resident(self.child.id()).filter(|n| *n > most));
             if let Some(bytes) = taken {
                 return Err(Silence::TooLarge(bytes));
             }
@@ -236,9 +238,12 @@ impl Drop for Worker {
     }
 }
 
-/// Memory that a process has at the moment, bytes.
-fn resident(process: u32) -> Option<u64> {
-    let sizes = std::fs::read_to_string(format!("/proc/{process}/statm")).ok()?;
-    let pages: u64 = sizes.split_whitespace().nth(1)?.parse().ok()?;
-    Some(pages * rustix::param::page_size() as u64)
+/// The most memory that a process has had, bytes.
+fn peak(process: u32) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().trim_end_matches("kB").trim_end().parse().ok()?;
+    Some(kibibytes << 10)
 }

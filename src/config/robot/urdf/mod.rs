@@ -37,9 +37,10 @@ pub(super) fn read(
     text: &str,
     (name, bodies): (&str, &Bodies),
 ) -> Result<Description, ConfigError> {
+    // Before anything is parsed: what is out of proportion would take that long to parse, too.
+    bounds::check(&Source::new(file, text), text)?;
     let text = xml::strict(text);
     let source = Source::new(file, &text);
-    bounds::check(&source, &text)?;
     let document = xml::parse(&source, &text)?;
     let root = document.root_element();
     let robot = Element::top(&source, root);

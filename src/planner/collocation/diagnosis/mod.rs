@@ -4,9 +4,11 @@
 
 mod candidates;
 mod findings;
+mod only_path;
 mod search;
 
 pub(in crate::planner) use findings::findings;
+pub(super) use only_path::OnlyPath;
 
 use crate::dynamics::space::Space;
 use crate::nlp::{Control, Deadline, Statistics};
@@ -68,7 +70,17 @@ pub(super) fn diagnose<Sp: Space>(
         statistics: Statistics::default(),
         tried: 0,
     };
-    let found = least(&mut search, first, limits)?;
+    let found = match first
+        .iter()
+        .all(|limit| never_kept.contains(&limit.id.limit))
+    {
+        true if !first.is_empty() => search.run_briefly(first.clone())?,
+        _ => None,
+    };
+    let found = match found {
+        Some(found) if !found.is_no_motion() || found.interrupted => Some(found),
+        _ => least(&mut search, first, limits)?,
+    };
     let found = match found {
         Some(found) => Some(looked_closer(&mut search, found)?),
         None => None,

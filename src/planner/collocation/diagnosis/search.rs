@@ -100,6 +100,17 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         self.look(FIRST_LOOK, limits)
     }
 
+    /// The same from few starts: where no motion keeps the limits on the joints, how much they have to give is
+    /// a matter of the straight path.
+    pub fn run_briefly(&mut self, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
+        let brief = Look {
+            starts: 2,
+            patience: 1,
+            ..FIRST_LOOK
+        };
+        self.look(brief, limits)
+    }
+
     /// The same from more starts and others, for the least values of what `limits` bound, be they within the
     /// limits or not, down to a part of them.
     pub fn closer(&mut self, limits: Vec<ElasticLimit>) -> Result<Option<Found>, PlanError> {
