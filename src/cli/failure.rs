@@ -1,6 +1,7 @@
 //! What keeps a command from being carried out, and the exit status it ends with.
 
 use super::Outcome;
+use crate::collocation::MeshError;
 use crate::config::{ConfigError, ProblemFile};
 use crate::nlp::ipopt::IpoptError;
 use crate::planner::PlanError;
@@ -112,6 +113,15 @@ impl Failure {
         };
         match (error, warm_start) {
             (PlanError::Problem(error), _) => Self::Config(file.blame(error)),
+            (PlanError::Mesh(MeshError::TooMany { what, found, most }), _) => {
+                // Each way-point is a breakpoint more.
+                let key = match file.problem.task.way_points.is_empty() {
+                    true => "mesh",
+                    false => "task.way_points",
+                };
+                let found = format!("{what} of {found} collocation points");
+                value(key, found, &format!("at most {most}"))
+            }
             (PlanError::Ipopt(IpoptError::OptionRefused { name, value: given }), _) => {
                 let key = match name.as_str() {
                     "linear_solver" => "solver.linear_solver".into(),

@@ -1,7 +1,7 @@
 //! One way to call any of the planners.
 
 use super::collocation::plan_base_rate;
-use super::joint_space::{acceleration_qp, matpm, quintic, reaction_null_space};
+use super::joint_space::{acceleration_qp, matpm, reaction_null_space, straight_line};
 use super::{Event, Method, Plan, PlanError, Planner};
 use crate::nlp::Control;
 use crate::problem::Problem;
@@ -32,7 +32,7 @@ impl Planner {
             }
             Method::BaseRate => plan_base_rate(self, problem, start, monitor),
             Method::Matpm => matpm::plan(problem),
-            Method::StraightLine => quintic::plan(problem),
+            Method::StraightLine => straight_line::plan(problem),
             Method::ReactionNullSpace => reaction_null_space::plan(problem),
             Method::AccelerationQp => acceleration_qp::plan(problem, monitor),
         };

@@ -2,7 +2,7 @@
 
 use super::collocation::diagnosis::findings;
 use super::conditioning::most_extreme;
-use super::{Doubt, Plan, Status};
+use super::{Doubt, Instability, Plan, Status};
 use crate::dynamics::space::Space;
 use crate::numeric::largest_or_nan;
 use crate::ocp::{Limited, Ocp};
@@ -32,23 +32,29 @@ pub struct Judgement {
     pub verification: Option<Verification>,
     /// Why the plan is not what it says; `None` where nothing speaks against it.
     pub doubt: Option<Doubt>,
+    /// What makes small errors grow where the plan holds and its control alone does not keep to it.
+    pub instability: Option<Instability>,
 }
 
 /// Re-integrates `plan` by equations that planning has no part in, and judges it by that.
 ///
 /// It is doubted where the re-integration fails, or where it drifts too far from the plan: joints by
 /// more than a hundredth of the largest travel of a joint; the base by more than that angle, or than
-/// a tenth of the tightest limit on its attitude, but not below a milliradian.
+/// a tenth of the tightest limit on its attitude, but not below a milliradian. It is not doubted where
+/// what each segment drifts by itself comes to less than a tenth of that: then the motion is unstable,
+/// and the plan is right.
 pub fn judge(problem: &Problem, plan: &Discretization) -> Judgement {
-    match verify(problem, plan) {
-        Ok(found) => Judgement {
-            verification: Some(found),
-            doubt: drifted(problem, plan, &found),
-        },
-        Err(error) => Judgement {
-            verification: None,
-            doubt: Some(Doubt::Unchecked(error)),
-        },
+    let (found, doubt) = match verify(problem, plan) {
+        Ok(found) => (Some(found), drifted(problem, plan, &found)),
+        Err(error) => (None, Some(Doubt::Unchecked(error))),
+    };
+    let instability = doubt
+        .as_ref()
+        .and_then(|doubt| Instability::behind(doubt, problem, plan));
+    Judgement {
+        verification: found,
+        doubt: doubt.filter(|_| instability.is_none()),
+        instability,
     }
 }
 
@@ -137,8 +143,10 @@ impl Plan {
         let Judgement {
             verification,
             doubt,
+            instability,
         } = judgement;
         self.verification = verification;
+        self.warnings.extend(instability.map(|it| it.to_string()));
         if self.status == Status::Solved
             && let Some(doubt) = doubt
         {

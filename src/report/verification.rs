@@ -65,6 +65,9 @@ pub fn verification_summary(saved: &Saved, judgement: &Judgement, files: &[PathB
     if let Some(found) = &judgement.verification {
         figures(&mut lines, found, joints_turn);
     }
+    if let Some(instability) = &judgement.instability {
+        lines.add("warning", instability.to_string());
+    }
     lines.files(files);
     let status = saved.solution.status;
     let heading = match &judgement.doubt {

@@ -95,13 +95,13 @@ impl Ode for Forward<'_> {
 impl Pass for Forward<'_> {
     const NAME: &'static str = "the full dynamics";
 
-    fn start(&mut self) -> Result<Vec<f64>, NotPositiveDefinite> {
+    fn at(&mut self, k: usize) -> Result<Vec<f64>, NotPositiveDefinite> {
         let n = self.u.len();
-        let (orientation, position) = self.planned.base(0);
+        let (orientation, position) = self.planned.base(k);
         let mut y = vec![0.0; JOINTS + 2 * n];
         y[..3].copy_from_slice(position.as_slice());
         write(&orientation, &mut y[ORIENTATION..]);
-        y[JOINTS..].copy_from_slice(self.planned.joints(0));
+        y[JOINTS..].copy_from_slice(self.planned.joints(k));
         self.place_bodies(&y);
         let dq = &y[JOINTS + n..];
         self.mass.update(self.planned.model, &self.bodies, dq)?;

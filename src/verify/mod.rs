@@ -31,6 +31,7 @@ pub use verification::Verification;
 
 use crate::problem::Problem;
 use crate::transcription::Discretization;
+use pass::From;
 
 /// Re-integrates the unreduced equations of motion (4) under the control of `plan`, whose states
 /// are [η, θ, θ̇], and compares.
@@ -45,9 +46,35 @@ pub fn verify(problem: &Problem, plan: &Discretization) -> Result<Verification, 
     check(problem, plan)?;
     let mut found = Verification::default();
     let planned = || pass::Planned::new(problem, plan);
-    pass::run(forward::Forward::new(planned()), plan, &mut found)?;
-    pass::run(replay::Replay::new(planned()), plan, &mut found)?;
+    let mut nothing = |_: &mut Verification| {};
+    let forward = forward::Forward::new(planned());
+    pass::run(forward, plan, From::Start, &mut found, &mut nothing)?;
+    let replay = replay::Replay::new(planned());
+    pass::run(replay, plan, From::Start, &mut found, &mut nothing)?;
     Ok(found)
+}
+
+/// The sum over all segments of how far the joints (rad or m) and the base's attitude (rad) leave `plan`
+/// where the integration of [`verify`] begins anew at the start of each.
+///
+/// What the plan itself gets wrong adds up to this. A drift beyond it is what the motion makes of small
+/// errors as they go on: it is unstable.
+///
+/// # Errors
+/// [`VerifyError`], as of [`verify`].
+pub fn drift_of_segments(
+    problem: &Problem,
+    plan: &Discretization,
+) -> Result<[f64; 2], VerifyError> {
+    check(problem, plan)?;
+    let forward = forward::Forward::new(pass::Planned::new(problem, plan));
+    let (mut found, mut sums) = (Verification::default(), [0.0; 2]);
+    let mut add = |found: &mut Verification| {
+        sums[0] += std::mem::take(&mut found.max_joint_drift);
+        sums[1] += std::mem::take(&mut found.max_base_attitude_drift);
+    };
+    pass::run(forward, plan, From::EachSegment, &mut found, &mut add)?;
+    Ok(sums)
 }
 
 /// Whether `plan` has the states and controls of `problem`'s robot, all of them finite.

@@ -101,8 +101,8 @@ impl<'a> Planned<'a> {
 pub(super) trait Pass: Ode<Error = NotPositiveDefinite> {
     /// What is integrated, for messages.
     const NAME: &'static str;
-    /// The state at t₀.
-    fn start(&mut self) -> Result<Vec<f64>, NotPositiveDefinite>;
+    /// The state that the plan has at node `k`, to integrate from there.
+    fn at(&mut self, k: usize) -> Result<Vec<f64>, NotPositiveDefinite>;
     /// Segment `s` begins.
     fn enter(&mut self, plan: &Discretization, s: usize);
     /// A step was taken.
@@ -111,17 +111,28 @@ pub(super) trait Pass: Ode<Error = NotPositiveDefinite> {
     fn at_node(&mut self, k: usize, y: &[f64], found: &mut Verification);
 }
 
-/// Integrates `pass` over `plan`.
+/// Where an integration begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum From {
+    /// At the start of the plan.
+    Start,
+    /// At the start of each segment anew.
+    EachSegment,
+}
+
+/// Integrates `pass` over `plan`; `ended` is told what was found after each segment.
 pub(super) fn run<P: Pass>(
     mut pass: P,
     plan: &Discretization,
+    from: From,
     found: &mut Verification,
+    ended: &mut dyn FnMut(&mut Verification),
 ) -> Result<(), VerifyError> {
     let singular = |time| VerifyError::Singular {
         pass: P::NAME,
         time,
     };
-    let mut y = pass.start().map_err(|NotPositiveDefinite| singular(0.0))?;
+    let mut y = pass.at(0).map_err(|NotPositiveDefinite| singular(0.0))?;
     let mesh = &plan.mesh;
     let limit = STEPS + STEPS_PER_NODE * mesh.points();
     let mut integrator = Dop853::new(y.len(), RELATIVE, ABSOLUTE, limit);
@@ -129,6 +140,11 @@ pub(super) fn run<P: Pass>(
         pass.enter(plan, s);
         if s > 0 {
             integrator.change_unit(mesh.width(s) / mesh.width(s - 1));
+            if from == From::EachSegment {
+                let start = pass.at(mesh.start(s));
+                let time = mesh.breakpoints()[s] * plan.duration;
+                y = start.map_err(|NotPositiveDefinite| singular(time))?;
+            }
         }
         let time = |tau| mesh.fraction(s, tau) * plan.duration;
         let nodes = mesh.rule(s).nodes();
@@ -166,6 +182,7 @@ pub(super) fn run<P: Pass>(
                 time: time(tau),
             });
         }
+        ended(found);
     }
     Ok(())
 }

@@ -68,8 +68,8 @@ impl Ode for Replay<'_> {
 impl Pass for Replay<'_> {
     const NAME: &'static str = "the base along the joint path";
 
-    fn start(&mut self) -> Result<Vec<f64>, NotPositiveDefinite> {
-        let (orientation, position) = self.planned.base(0);
+    fn at(&mut self, k: usize) -> Result<Vec<f64>, NotPositiveDefinite> {
+        let (orientation, position) = self.planned.base(k);
         let mut y = vec![0.0; 7];
         y[..3].copy_from_slice(position.as_slice());
         write(&orientation, &mut y[3..]);

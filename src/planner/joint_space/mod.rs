@@ -3,7 +3,7 @@
 pub(super) mod acceleration_qp;
 mod joint_motion;
 pub(super) mod matpm;
-pub(super) mod quintic;
 pub(super) mod reaction_null_space;
+pub(super) mod straight_line;
 
 pub use matpm::poses as matpm_motion;

@@ -7,10 +7,13 @@ use crate::transcription::Discretization;
 const COEFFICIENTS: usize = 24;
 /// Points of the quadrature that they are computed with.
 const QUADRATURE: usize = 48;
-/// Decades a coefficient where nothing is known, at least and at most.
-const DECAY: (f64, f64, f64) = (0.5, 0.15, 1.5);
-/// Part of the tolerance that the degree is chosen for.
-const AIM: f64 = 0.3;
+/// Decades by which a coefficient is smaller than the one before, where nothing is known.
+const USUAL_DECAY: f64 = 0.5;
+/// The least and the most that is believed of a fit.
+const LEAST_DECAY: f64 = 0.15;
+const MOST_DECAY: f64 = 1.5;
+/// Part of the tolerance that the degree is chosen for: the fit is of sizes, not of bounds.
+const DEGREE_AIM: f64 = 0.3;
 
 /// Sizes of the Legendre coefficients of dX/dτ on the part `from..to` of the duration, the largest over
 /// all states, each being the larger one of two neighbours: one of them may vanish by symmetry.
@@ -53,7 +56,7 @@ fn line(sizes: &[f64], noise: f64) -> Option<(f64, f64)> {
     let mean_y = logs.iter().sum::<f64>() / n;
     let moved = logs.iter().enumerate().map(|(i, y)| (i as f64 - mean_x, y));
     let (xy, xx) = moved.fold((0.0, 0.0), |(xy, xx), (x, y)| (xy + x * y, xx + x * x));
-    let decay = (-xy / xx).clamp(DECAY.1, DECAY.2);
+    let decay = (-xy / xx).clamp(LEAST_DECAY, MOST_DECAY);
     Some((mean_y + decay * mean_x, decay))
 }
 
@@ -66,9 +69,9 @@ pub(super) fn needed(
     least: usize,
 ) -> usize {
     let sizes = sizes(trajectory, from, to);
-    match line(&sizes, noise.max(tolerance * AIM)) {
+    match line(&sizes, noise.max(tolerance * DEGREE_AIM)) {
         Some((start, decay)) => {
-            let points = (start - (AIM * tolerance).log10()) / decay;
+            let points = (start - (DEGREE_AIM * tolerance).log10()) / decay;
             (points.ceil().max(0.0) as usize + 1).max(least)
         }
         None => least,
@@ -80,5 +83,5 @@ pub(super) fn decay(trajectory: &Discretization, s: usize) -> f64 {
     let breakpoints = trajectory.mesh.breakpoints();
     let mut sizes = sizes(trajectory, breakpoints[s], breakpoints[s + 1]);
     sizes.truncate(trajectory.mesh.rule(s).len());
-    line(&sizes, 0.0).map_or(DECAY.0, |(_, decay)| decay)
+    line(&sizes, 0.0).map_or(USUAL_DECAY, |(_, decay)| decay)
 }

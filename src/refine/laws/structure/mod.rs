@@ -26,12 +26,16 @@ const FEWEST: usize = 3;
 const LAYER: f64 = 0.5;
 /// Most points a segment gets at once.
 const MOST_MORE: usize = 6;
-/// Most points of a segment with a free control, and of one without, on the first mesh with a structure.
-const FIRST: (usize, usize) = (14, 5);
+/// Most points of a segment with a free control on the first mesh with a structure, and of one without: the
+/// mesh before tells no more of the solution.
+const MOST_AT_FIRST_FREE: usize = 14;
+const MOST_AT_FIRST_FIXED: usize = 5;
 /// Most switches for which a structure is tried.
 const MOST_SWITCHES: usize = 40;
 /// Part of the tolerance that a raised degree aims at.
-const AIM: f64 = 0.5;
+const RAISE_AIM: f64 = 0.5;
+/// Part of the distance to the next fixed breakpoint that a free one keeps from it.
+const LEAST_WIDTH: f64 = 1e-3;
 
 #[derive(Debug)]
 pub(super) struct Law<'a>(pub &'a Settings);
@@ -150,8 +154,8 @@ impl Law<'_> {
             // The mesh before is too coarse to tell high degrees: more of them are for the next.
             let free = fixed.iter().filter(|value| value.is_none()).count();
             let most = match free > rows.iter().flatten().count() {
-                true => FIRST.0,
-                false => FIRST.1,
+                true => MOST_AT_FIRST_FREE,
+                false => MOST_AT_FIRST_FIXED,
             };
             draft.breakpoints.push(pair[1]);
             draft.points.push(points.min(most).min(settings.max_points));
@@ -203,7 +207,7 @@ impl Law<'_> {
                 decisions.push(Decision::Keep);
                 (1, n)
             } else {
-                let decades = (error / (AIM * settings.tolerance)).log10();
+                let decades = (error / (RAISE_AIM * settings.tolerance)).log10();
                 let more = (decades / degrees::decay(assessment.trajectory, s)).ceil();
                 let more = (more.max(1.0) as usize).min(MOST_MORE);
                 match n + more <= settings.max_points {
@@ -244,7 +248,7 @@ impl Draft {
         let knots = inner
             .filter_map(|b| {
                 let window = self.breakpoints[b].1?;
-                let room = |c: usize| 1e-3 * (at[b] - at[c]).abs();
+                let room = |c: usize| LEAST_WIDTH * (at[b] - at[c]).abs();
                 let lower = stop(b - 1).map_or(window.lower, |a| window.lower.max(a + room(b - 1)));
                 let upper = stop(b + 1).map_or(window.upper, |a| window.upper.min(a - room(b + 1)));
                 let window = Interval::new(lower, upper);

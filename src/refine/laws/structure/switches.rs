@@ -17,7 +17,10 @@ const SAME: f64 = 0.25;
 /// Points of an arc inside after which a control that has left a bound has settled.
 const SETTLED: usize = 2;
 /// Window of the end of a layer, as multiples of its estimate.
-const LAYER: (f64, f64) = (0.05, 4.0);
+const LEAST_LAYER: f64 = 0.05;
+const MOST_LAYER: f64 = 4.0;
+/// Part of its window that a switch keeps from the ends of it to begin with.
+const WITHIN: f64 = 0.05;
 /// Longest layer, as a part of the segment it is in.
 const LONGEST_LAYER: f64 = 0.3;
 /// A jump is one if it is so many times as large as what the smooth motion beside it leaves.
@@ -279,7 +282,7 @@ fn of_values(solution: &Discretization, signal: &Signal, runs: &[Run], found: &m
                     false => left(&ends, &weights, values, &run, next),
                 };
                 let window = window(run.last, next.first);
-                let room = 0.05 * (window.upper - window.lower);
+                let room = WITHIN * (window.upper - window.lower);
                 let at = at.clamp(window.lower + room, window.upper - room);
                 found.switches.push(Switch { at, window });
                 at
@@ -385,7 +388,10 @@ fn layer(
     }
     let Some((width, value)) = best else { return };
     let at = end + sign * width;
-    let (a, b) = (end + sign * LAYER.0 * width, end + sign * LAYER.1 * width);
+    let (a, b) = (
+        end + sign * LEAST_LAYER * width,
+        end + sign * MOST_LAYER * width,
+    );
     found.switches.push(Switch {
         at,
         window: Interval::new(a.min(b), a.max(b)),
