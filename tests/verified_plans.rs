@@ -172,3 +172,33 @@ fn the_straight_line_figure_knows_the_momentum() {
         assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
 }
+
+/// A slide on a spinning base: errors grow as fast as it turns, though each part of the motion is right.
+#[test]
+fn a_plan_for_an_unstable_motion_is_solved_and_says_so() {
+    let path = Path::new("tests/data/cases/unstable/problem.toml");
+    let problem = ProblemFile::load(path, &Overrides::default())
+        .unwrap()
+        .problem;
+    let mut found = plan(&problem).unwrap();
+    found.verify(&problem);
+    assert_eq!(found.status, Status::Solved, "{:?}", found.warnings);
+    let judgement = judge(&problem, &found.discretization);
+    let instability = judgement.instability.expect("growing errors");
+    assert!(judgement.doubt.is_none());
+    assert!(
+        instability.drift > 1e-2 && instability.own < 1e-5,
+        "{instability:?}"
+    );
+    assert!(
+        found.warnings.iter().any(|text| text.contains("unstable")),
+        "{:?}",
+        found.warnings
+    );
+    // Another control than the motion needs is another matter.
+    for value in &mut found.discretization.u {
+        *value *= 1.02;
+    }
+    let judgement = judge(&problem, &found.discretization);
+    assert!(judgement.doubt.is_some() && judgement.instability.is_none());
+}
