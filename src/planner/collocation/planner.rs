@@ -222,7 +222,16 @@ impl<Sp: Space> Search<'_, Sp> {
             trajectory: diagnosed.trajectory.resample(start.trajectory.mesh.clone()),
             iterate: None,
         };
-        Ok(self.refine(&again, monitor)?.after(outcome))
+        let found = self.refine(&again, monitor)?.after(outcome);
+        if found.status != Status::NotConverged || found.outcome.status.is_solved() {
+            return Ok(found);
+        }
+        // A limit that only just can be kept may need more points than the first mesh has.
+        let finer = Start {
+            trajectory: diagnosed.trajectory,
+            iterate: None,
+        };
+        Ok(self.refine(&finer, monitor)?.after(found.outcome))
     }
 
     /// The answer for an arm whose only path exceeds a limit on the base's pose: a motion along it, all
