@@ -9,7 +9,7 @@ use super::robot::Robot;
 use super::trust::Origin;
 use super::values::Components;
 use super::way_point;
-use crate::nlp::ipopt::{reach_of_option, reach_of_solver};
+use crate::nlp::ipopt::{access_of_option, access_of_solver};
 use crate::nlp::{self, OptionValue};
 use crate::ocp::Interval;
 use crate::problem::{
@@ -324,7 +324,7 @@ pub(super) fn solver(
     if let Some(item) = section.get("linear_solver") {
         let expected = "\"auto\", \"multifrontal\", or Ipopt's name of a linear solver";
         solver.linear_solver = item.text(expected)?.into();
-        origin.check(item, reach_of_solver(&solver.linear_solver))?;
+        origin.check(item, access_of_solver(&solver.linear_solver))?;
     }
     if let Some(item) = section.get("options") {
         for item in item.entries("a table of Ipopt's options by name")? {
@@ -338,7 +338,7 @@ pub(super) fn solver(
                 _ => None,
             };
             let value = value.ok_or_else(|| item.unexpected("a finite number or a string"))?;
-            origin.check(&item, reach_of_option(item.name, &value))?;
+            origin.check(&item, access_of_option(item.name, &value))?;
             solver.options.push((item.name.into(), value));
         }
     }

@@ -6,7 +6,7 @@
 
 use super::ConfigError;
 use super::item::Item;
-use crate::nlp::ipopt::Reach;
+use crate::nlp::ipopt::OptionAccess;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static TRUSTED: AtomicBool = AtomicBool::new(false);
@@ -32,7 +32,11 @@ pub(super) enum Origin {
 
 impl Origin {
     /// Refuses `item`, an option of Ipopt that has `reach`, where nobody who may has set it.
-    pub(super) fn check(self, item: &Item<'_>, reach: Option<Reach>) -> Result<(), ConfigError> {
+    pub(super) fn check(
+        self,
+        item: &Item<'_>,
+        reach: Option<OptionAccess>,
+    ) -> Result<(), ConfigError> {
         // Options of the command line stand on no line.
         let own = self == Self::CommandLine && item.node.place.line.is_none();
         match reach {

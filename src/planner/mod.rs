@@ -24,5 +24,5 @@ pub use event::Event;
 pub use instability::Instability;
 pub use joint_space::matpm_motion;
 pub use method::Method;
-pub use plan::{Diagnosis, LimitFinding, Plan, Starts, Status, Timing};
+pub use plan::{Diagnosis, LimitFinding, Plan, StartCounts, Status, Timing};
 pub use verification::{Judgement, judge, judge_solved};

@@ -72,7 +72,7 @@ pub struct LimitFinding {
 /// How many starts a search was begun from.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Starts {
+pub struct StartCounts {
     /// All of them.
     pub tried: usize,
     /// Those that ended at a trajectory within the limits, or within the relaxed ones.
@@ -89,7 +89,7 @@ pub struct Diagnosis {
     /// the bounds are those of a mesh that is too coarse, and need not work.
     pub converged: bool,
     /// The starts that were tried.
-    pub starts: Starts,
+    pub starts: StartCounts,
     /// One sentence for a person, in degrees and centimetres.
     pub summary: String,
 }

@@ -1,6 +1,6 @@
 //! What the solution on one mesh is worth: its errors, its bounds between the nodes, its verdict.
 
-use super::conditioning::Conditioning;
+use super::assumptions::Assumptions;
 use super::mesh_solve::Solved;
 use super::objective_error::objective_error;
 use super::violation::{OVERSHOOT, violations};
@@ -53,9 +53,9 @@ impl<'a> Assessor<'a> {
     }
 
     /// Looks at a solution between its nodes.
-    pub fn assess(&self, solved: &Solved, conditioning: &Conditioning<'_>) -> Assessed {
+    pub fn assess(&self, solved: &Solved, assumptions: &Assumptions<'_>) -> Assessed {
         let errors = midpoint_errors(self.ocp, &solved.trajectory);
-        let errors = conditioning.measured(errors, self.settings);
+        let errors = assumptions.measured(errors, self.settings);
         let duration = solved.trajectory.duration;
         let outside = violations(self.ocp, &solved.trajectory, |what| self.jumps(what));
         let removable: Vec<Vec<Violation>> = outside

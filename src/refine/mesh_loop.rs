@@ -1,7 +1,7 @@
 //! The loop over meshes: one solve and one decision of the law a step.
 
 use super::assess::{Assessed, Assessor};
-use super::conditioning::Conditioning;
+use super::assumptions::Assumptions;
 use super::divergence::diverges;
 use super::mesh_solve::{MeshSolver, Previous, Solved};
 use super::transfer::resample;
@@ -26,7 +26,7 @@ pub(super) struct MeshLoop<'a> {
     facts: &'a Facts<'a>,
     solver: MeshSolver<'a>,
     assessor: Assessor<'a>,
-    conditioning: Conditioning<'a>,
+    assumptions: Assumptions<'a>,
     /// What the next solve starts from, on its mesh.
     trajectory: Discretization,
     /// What is supposed of its solution.
@@ -67,7 +67,7 @@ impl<'a> MeshLoop<'a> {
             law: settings.law(),
             solver,
             assessor: Assessor::new(ocp, &facts.jumping_rows, settings),
-            conditioning: Conditioning::new(ocp, patterns, &trajectory),
+            assumptions: Assumptions::new(ocp, patterns, &trajectory),
             facts,
             trajectory,
             structure: Structure::default(),
@@ -139,14 +139,14 @@ impl<'a> MeshLoop<'a> {
             false => monitor(Event::Solver(progress)),
         };
         let solved = self.solver.settled(
-            &mut self.conditioning,
+            &mut self.assumptions,
             &self.trajectory,
             &self.structure,
             self.previous.as_ref(),
             &mut self.statistics,
             &mut on_step,
         )?;
-        let assessed = self.assessor.assess(&solved, &self.conditioning);
+        let assessed = self.assessor.assess(&solved, &self.assumptions);
         let record = self.record(&solved, &assessed, began);
         let cut_short = matches!(solved.status, Status::Interrupted | Status::TimeLimit);
         let holds = solved.status.is_solved() && solved.arcs_hold && self.gains(&assessed);
@@ -179,9 +179,7 @@ impl<'a> MeshLoop<'a> {
             Some(old) => (&old.solved, &old.assessed, None),
             None => (&round.solved, &round.assessed, previous),
         };
-        let trajectory = self
-            .conditioning
-            .in_units(&solved.trajectory, self.settings);
+        let trajectory = self.assumptions.in_units(&solved.trajectory, self.settings);
         self.law.refine(&Assessment {
             trajectory: &trajectory,
             errors: &assessed.errors,

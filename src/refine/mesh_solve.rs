@@ -3,7 +3,7 @@
 
 use super::Start;
 use super::assess::Assessed;
-use super::conditioning::Conditioning;
+use super::assumptions::Assumptions;
 use super::transfer::{Duals, saved_layout};
 use crate::nlp::{
     self, Control, Deadline, Iterate, Progress, Scaled, Statistics, Status, Units, ipopt,
@@ -81,7 +81,7 @@ impl MeshSolver<'_> {
     /// Solves on the mesh of `trajectory`, again where the solution is not as was supposed of it.
     pub fn settled(
         &self,
-        conditioning: &mut Conditioning<'_>,
+        assumptions: &mut Assumptions<'_>,
         trajectory: &Discretization,
         structure: &Structure,
         previous: Option<&Previous>,
@@ -91,17 +91,17 @@ impl MeshSolver<'_> {
         let mut nlp_iterations = 0;
         for attempt in 1.. {
             let mesh = trajectory.mesh.clone();
-            let formulation = conditioning.formulation();
+            let formulation = assumptions.formulation();
             let mut program = Transcription::structured(
                 self.ocp,
                 formulation,
-                conditioning.patterns(),
+                assumptions.patterns(),
                 mesh,
                 structure.clone(),
             );
             let (mut settings, iterate) = self.warm_start(&program, trajectory, previous);
             settings.time_limit = self.deadline.remaining();
-            let mut units = conditioning.units(program.layout());
+            let mut units = assumptions.units(program.layout());
             for (i, knot) in structure.knots.iter().enumerate() {
                 units.variables[program.layout().knot(i)] = knot.unit();
             }
@@ -121,7 +121,7 @@ impl MeshSolver<'_> {
             )?;
             nlp_iterations += solved.nlp_iterations;
             solved.nlp_iterations = nlp_iterations;
-            let again = conditioning.settle(&solved.trajectory, solved.status);
+            let again = assumptions.settle(&solved.trajectory, solved.status);
             // Another attempt would end at the same limit.
             let spent = solved.status == Status::MaxIterations;
             if !again || attempt == ATTEMPTS || spent {

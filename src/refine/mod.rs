@@ -10,7 +10,7 @@
 //! | `facts` | what a law may ask of the problem |
 //! | `law`, `laws` | what a law is, and one file a law |
 //! | `curvature` | curvature of a state, eq. (29) and (31) |
-//! | `conditioning` | scales, far bounds and patterns, settled after each solve |
+//! | `assumptions` | scales, far bounds and patterns, settled after each solve |
 //! | `transfer` | a solution with its multipliers from one mesh to another |
 //! | `start` | where the loop starts from |
 //! | `driver` | a problem ready to be solved on one mesh after another |
@@ -25,7 +25,7 @@
 //! | `record`, `verdict` | what a mesh iteration came to |
 
 mod assess;
-mod conditioning;
+mod assumptions;
 mod curvature;
 mod divergence;
 mod driver;

@@ -185,7 +185,7 @@ pub(crate) fn verification(found: &verify::Verification) -> Verification {
 }
 
 fn diagnosis(found: &planner::Diagnosis) -> Diagnosis {
-    let planner::Starts { tried, feasible } = found.starts;
+    let planner::StartCounts { tried, feasible } = found.starts;
     let limit = |limit: &planner::LimitFinding| LimitFinding {
         key: limit.limit.key().into_owned(),
         component: limit.name.clone(),

@@ -3,7 +3,7 @@
 //! Derived in docs/algorithms.md#scales.
 
 use super::Layout;
-use super::reach::{Reach, Typed, magnitude};
+use super::ranges::{Ranges, Typed, magnitude};
 use crate::nlp::Units;
 use crate::ocp::{Formulation, Quantity};
 
@@ -45,13 +45,13 @@ enum Basis {
 }
 
 impl Scales {
-    /// Those of `formulation`, which has no bounds that are far from `reach`: what a quantity says
+    /// Those of `formulation`, which has no bounds that are far from `ranges`: what a quantity says
     /// itself, else the size of what its ends fix it to, else of its bounds, and of its values where
     /// these are larger.
     ///
     /// A size between 1/64 and 64 gives the scale 1, any other the power of two nearest to it, so
     /// that nothing is rounded.
-    pub fn new(formulation: &Formulation, reach: &Reach) -> Self {
+    pub fn new(formulation: &Formulation, ranges: &Ranges) -> Self {
         let typed = Typed::of(formulation);
         let many = |quantities: &[Quantity], ranges: &[crate::ocp::Interval]| -> Vec<Scale> {
             let pairs = quantities.iter().zip(ranges);
@@ -59,21 +59,21 @@ impl Scales {
                 .map(|(quantity, range)| of(quantity, 0.0, magnitude(range)))
                 .collect()
         };
-        let points = formulation.way_points.iter().zip(&reach.way_points);
+        let points = formulation.way_points.iter().zip(&ranges.way_points);
         Self {
-            states: (formulation.states.iter().zip(&reach.states).zip(&typed.0))
+            states: (formulation.states.iter().zip(&ranges.states).zip(&typed.0))
                 .map(|((state, range), &end)| of(state, end, magnitude(range)))
                 .collect(),
-            controls: many(&formulation.controls, &reach.controls),
-            path: many(&formulation.path, &reach.path),
-            boundary: many(&formulation.boundary, &reach.boundary),
+            controls: many(&formulation.controls, &ranges.controls),
+            path: many(&formulation.path, &ranges.path),
+            boundary: many(&formulation.boundary, &ranges.boundary),
             way_points: points
                 .map(|(point, ranges)| many(&point.rows, ranges))
                 .collect(),
-            parameters: many(&formulation.parameters, &reach.parameters),
-            integrals: many(&formulation.integrals, &reach.integrals),
+            parameters: many(&formulation.parameters, &ranges.parameters),
+            integrals: many(&formulation.integrals, &ranges.integrals),
             duration: Scale {
-                value: rounded(reach.duration),
+                value: rounded(ranges.duration),
                 basis: Basis::Typed,
             },
         }
@@ -81,25 +81,25 @@ impl Scales {
 
     /// These after a solution: larger where it is much larger, smaller where nothing but the first
     /// trajectory told the size. `None` where nothing changes.
-    pub fn after(&self, reach: &Reach) -> Option<Self> {
+    pub fn after(&self, ranges: &Ranges) -> Option<Self> {
         let many = |scales: &[Scale], ranges: &[crate::ocp::Interval]| -> Vec<Scale> {
             let pairs = scales.iter().zip(ranges);
             pairs
                 .map(|(scale, range)| scale.after(magnitude(range)))
                 .collect()
         };
-        let points = self.way_points.iter().zip(&reach.way_points);
+        let points = self.way_points.iter().zip(&ranges.way_points);
         let next = Self {
-            states: many(&self.states, &reach.states),
-            controls: many(&self.controls, &reach.controls),
-            path: many(&self.path, &reach.path),
-            boundary: many(&self.boundary, &reach.boundary),
+            states: many(&self.states, &ranges.states),
+            controls: many(&self.controls, &ranges.controls),
+            path: many(&self.path, &ranges.path),
+            boundary: many(&self.boundary, &ranges.boundary),
             way_points: points
                 .map(|(scales, ranges)| many(scales, ranges))
                 .collect(),
-            parameters: many(&self.parameters, &reach.parameters),
-            integrals: many(&self.integrals, &reach.integrals),
-            duration: self.duration.after(reach.duration),
+            parameters: many(&self.parameters, &ranges.parameters),
+            integrals: many(&self.integrals, &ranges.integrals),
+            duration: self.duration.after(ranges.duration),
         };
         (next != *self).then_some(next)
     }

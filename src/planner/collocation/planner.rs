@@ -9,7 +9,9 @@ use crate::dynamics::attitude::Attitude;
 use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, ipopt};
 use crate::planner::words::proven;
-use crate::planner::{Diagnosis, Event, Method, Plan, PlanError, Starts, Status, Timing, floor};
+use crate::planner::{
+    Diagnosis, Event, Method, Plan, PlanError, StartCounts, Status, Timing, floor,
+};
 use crate::problem::Problem;
 use crate::refine::{CutShort, Outcome, Refinement, Start, Verdict, midpoint_errors};
 use crate::system::{
@@ -269,7 +271,7 @@ impl<Sp: Space> Search<'_, Sp> {
             diagnosis: Some(Diagnosis {
                 summary: proven(&limits),
                 limits,
-                starts: Starts {
+                starts: StartCounts {
                     tried: 1,
                     feasible: 1,
                 },

@@ -11,7 +11,9 @@ use crate::nlp::Iterate;
 use crate::ocp::Interval;
 use crate::planner::collocation::diagnosis::findings;
 use crate::planner::words::sentence;
-use crate::planner::{Diagnosis, LimitFinding, Method, Plan, PlanError, Starts, Status, Timing};
+use crate::planner::{
+    Diagnosis, LimitFinding, Method, Plan, PlanError, StartCounts, Status, Timing,
+};
 use crate::problem::{LimitId, Problem, ProblemError, Unit};
 use crate::refine::{Errors, midpoint_errors};
 use crate::system::{
@@ -108,7 +110,7 @@ pub(super) fn assemble<Sp: Space>(
         converged: true,
         summary: sentence(&limits, |_, works| format!("{verb} {works}")),
         limits,
-        starts: Starts {
+        starts: StartCounts {
             tried: 1,
             feasible: 0,
         },

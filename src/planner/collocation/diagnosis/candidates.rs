@@ -1,7 +1,7 @@
 //! What the starts of a search ended at, and when there are enough.
 
 use super::findings::HELD;
-use crate::planner::Starts;
+use crate::planner::StartCounts;
 use crate::refine::{Outcome, Start};
 
 /// Relative gain that counts as better.
@@ -72,7 +72,7 @@ impl Candidate {
 pub(super) struct Candidates {
     /// Every start that was solved, the least excess first.
     pub found: Vec<Candidate>,
-    pub starts: Starts,
+    pub starts: StartCounts,
     /// Starts since the last gain.
     stale: usize,
     look: Look,
@@ -82,7 +82,7 @@ impl Candidates {
     pub fn new(look: Look) -> Self {
         Self {
             found: Vec::new(),
-            starts: Starts::default(),
+            starts: StartCounts::default(),
             stale: 0,
             look,
         }

@@ -11,7 +11,7 @@ use crate::dynamics::space::Space;
 use crate::nlp::{self, Control, Deadline, Statistics};
 use crate::ocp::{Elastic, LimitGroup, Ocp};
 use crate::planner::collocation::elastic_trajectory::{extend, strip};
-use crate::planner::{Event, LimitFinding, PlanError, Starts};
+use crate::planner::{Event, LimitFinding, PlanError, StartCounts};
 use crate::problem::Problem;
 use crate::refine::{self, CutShort, Law, Method, Outcome, Refinement, Start};
 use crate::system::{self, ElasticLimit, FreeFloating, JointPath, along};
@@ -70,7 +70,7 @@ pub(super) struct Found {
     pub trajectory: Option<Discretization>,
     /// Whether its refinement converged.
     pub converged: bool,
-    pub starts: Starts,
+    pub starts: StartCounts,
     pub interrupted: bool,
 }
 
@@ -133,7 +133,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             limits,
             trajectory: None,
             converged: false,
-            starts: Starts::default(),
+            starts: StartCounts::default(),
             interrupted: false,
         };
         let mut candidates = Vec::new();

@@ -8,7 +8,7 @@ const FAR: f64 = 1e4;
 
 /// Ranges of all quantities along a trajectory, at its nodes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reach {
+pub struct Ranges {
     pub(super) states: Vec<Interval>,
     pub(super) controls: Vec<Interval>,
     pub(super) path: Vec<Interval>,
@@ -23,11 +23,11 @@ pub struct Reach {
 
 const NOWHERE: Interval = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
 
-impl Reach {
+impl Ranges {
     /// That of `trajectory`, which has a node at every way-point.
     pub fn of(ocp: &dyn DynOcp, formulation: &Formulation, trajectory: &Discretization) -> Self {
         let (n, m) = formulation.widths();
-        let mut reach = Self {
+        let mut found = Self {
             states: vec![NOWHERE; n],
             controls: vec![NOWHERE; m],
             path: vec![NOWHERE; formulation.path.len()],
@@ -44,18 +44,18 @@ impl Reach {
         let points = trajectory.mesh.points();
         for (k, &t) in times.iter().enumerate() {
             let x = trajectory.state(k);
-            widen(&mut reach.states, x);
+            widen(&mut found.states, x);
             if k < points {
                 let u = trajectory.control(k);
-                widen(&mut reach.controls, u);
+                widen(&mut found.controls, u);
                 let point = trajectory.point(x, u, t);
                 functions.continuous(point, &mut rates, &mut path);
-                widen(&mut reach.path, &path);
+                widen(&mut found.path, &path);
             }
         }
         let mut rows = vec![0.0; formulation.boundary.len()];
         functions.boundary(trajectory.ends(), &mut rows);
-        widen(&mut reach.boundary, &rows);
+        widen(&mut found.boundary, &rows);
         for (way_point, point) in formulation.way_points.iter().enumerate() {
             let mut ranges = vec![NOWHERE; point.rows.len()];
             if let Some(node) = trajectory.mesh.node_at(point.fraction) {
@@ -69,9 +69,9 @@ impl Reach {
                 functions.way_point(passed, &mut rows);
                 widen(&mut ranges, &rows);
             }
-            reach.way_points.push(ranges);
+            found.way_points.push(ranges);
         }
-        reach
+        found
     }
 
     /// `formulation` without the bounds that lie far outside this.

@@ -8,32 +8,32 @@
 use super::{ErrorMeasure, Errors, Settings};
 use crate::nlp::{Status, Units};
 use crate::ocp::{DynOcp, Formulation};
-use crate::transcription::{Discretization, Layout, Patterns, Reach, Scales};
+use crate::transcription::{Discretization, Layout, Patterns, Ranges, Scales};
 use std::borrow::Cow;
 
 /// Suppositions about one problem.
-pub(super) struct Conditioning<'a> {
+pub(super) struct Assumptions<'a> {
     ocp: &'a dyn DynOcp,
     all: Formulation,
     /// The formulation without bounds that lie far outside.
     near: Formulation,
     scales: Scales,
     /// Where the trajectory goes that the first solve starts from.
-    reach: Reach,
+    ranges: Ranges,
     patterns: Cow<'a, Patterns>,
 }
 
-impl<'a> Conditioning<'a> {
+impl<'a> Assumptions<'a> {
     /// By the trajectory that the first solve starts from, which has a node at every way-point.
     pub fn new(ocp: &'a dyn DynOcp, patterns: &'a Patterns, start: &Discretization) -> Self {
         let all = ocp.formulation();
-        let reach = Reach::of(ocp, &all, start);
-        let near = reach.without_far_bounds(&all);
+        let ranges = Ranges::of(ocp, &all, start);
+        let near = ranges.without_far_bounds(&all);
         let wider = patterns.widened(ocp, &all, start);
         Self {
             ocp,
-            scales: Scales::new(&near, &reach),
-            reach,
+            scales: Scales::new(&near, &ranges),
+            ranges,
             all,
             near,
             patterns: wider.map_or(Cow::Borrowed(patterns), Cow::Owned),
@@ -60,20 +60,20 @@ impl<'a> Conditioning<'a> {
         if matches!(status, Status::Interrupted | Status::TimeLimit) {
             return false;
         }
-        let reach = Reach::of(self.ocp, &self.all, solution);
+        let ranges = Ranges::of(self.ocp, &self.all, solution);
         let mut again = false;
         if let Some(wider) = self.patterns.widened(self.ocp, &self.all, solution) {
             self.patterns = Cow::Owned(wider);
             again = true;
         }
-        if reach.exceeds_dropped(&self.all, &self.near) {
+        if ranges.exceeds_dropped(&self.all, &self.near) {
             self.near = self.all.clone();
             // A solution without bounds that act tells no size.
-            self.scales = Scales::new(&self.all, &self.reach);
+            self.scales = Scales::new(&self.all, &self.ranges);
             return true;
         }
         // Nor does what did not converge.
-        if let Some(scales) = self.scales.after(&reach).filter(|_| status.is_solved()) {
+        if let Some(scales) = self.scales.after(&ranges).filter(|_| status.is_solved()) {
             // Solved in units too small, a solution is only more accurate than need be.
             again |= scales.any_below(&self.scales);
             self.scales = scales;

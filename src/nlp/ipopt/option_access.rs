@@ -10,7 +10,7 @@ use std::fmt;
 /// What an option can do beyond steering a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Reach {
+pub enum OptionAccess {
     /// Load a library and run code in it.
     Code,
     /// Read or write files.
@@ -19,7 +19,7 @@ pub enum Reach {
     Unknown,
 }
 
-impl fmt::Display for Reach {
+impl fmt::Display for OptionAccess {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Code => "loads a library",
@@ -120,39 +120,39 @@ const HARMLESS: [&str; 66] = [
 ];
 
 /// What the option `name` with `value` can do beyond steering a solve; `None` where that is nothing.
-pub fn reach_of_option(name: &str, value: &OptionValue) -> Option<Reach> {
+pub fn access_of_option(name: &str, value: &OptionValue) -> Option<OptionAccess> {
     let name = name.to_ascii_lowercase();
     // Ipopt's own parts may have options of their own, by a prefix.
     let name = name.rsplit('.').next().unwrap_or_default();
     if CODE.contains(&name) {
-        return Some(Reach::Code);
+        return Some(OptionAccess::Code);
     }
     if FILES.contains(&name) {
-        return Some(Reach::Files);
+        return Some(OptionAccess::Files);
     }
     let OptionValue::Text(value) = value else {
         return None;
     };
     if name == "linear_solver" {
-        return reach_of_solver(&value.as_str().into());
+        return access_of_solver(&value.as_str().into());
     }
     let mut loading = CODE_VALUES.iter().filter(|(option, _)| *option == name);
     let is_loading =
         |(_, values): &(&str, &[&str])| values.iter().any(|of| value.eq_ignore_ascii_case(of));
     if loading.any(is_loading) {
-        Some(Reach::Code)
+        Some(OptionAccess::Code)
     } else if HARMLESS.contains(&name) {
         None
     } else {
-        Some(Reach::Unknown)
+        Some(OptionAccess::Unknown)
     }
 }
 
 /// What the linear solver does beyond solving: all but those built in are loaded from a library.
-pub fn reach_of_solver(solver: &LinearSolver) -> Option<Reach> {
+pub fn access_of_solver(solver: &LinearSolver) -> Option<OptionAccess> {
     match solver {
         LinearSolver::Auto | LinearSolver::Multifrontal | LinearSolver::Mumps => None,
-        _ => Some(Reach::Code),
+        _ => Some(OptionAccess::Code),
     }
 }
 
@@ -160,25 +160,25 @@ pub fn reach_of_solver(solver: &LinearSolver) -> Option<Reach> {
 mod tests {
     use super::*;
 
-    fn of(name: &str, value: &str) -> Option<Reach> {
-        reach_of_option(name, &OptionValue::Text(value.into()))
+    fn of(name: &str, value: &str) -> Option<OptionAccess> {
+        access_of_option(name, &OptionValue::Text(value.into()))
     }
 
     #[test]
     fn what_loads_code_or_touches_files_is_known() {
-        assert_eq!(of("hsllib", "x.so"), Some(Reach::Code));
-        assert_eq!(of("resto.HSLLib", "x.so"), Some(Reach::Code));
-        assert_eq!(of("linear_solver", "MA57"), Some(Reach::Code));
-        assert_eq!(of("output_file", "x"), Some(Reach::Files));
-        assert_eq!(of("some_new_path", "x"), Some(Reach::Unknown));
+        assert_eq!(of("hsllib", "x.so"), Some(OptionAccess::Code));
+        assert_eq!(of("resto.HSLLib", "x.so"), Some(OptionAccess::Code));
+        assert_eq!(of("linear_solver", "MA57"), Some(OptionAccess::Code));
+        assert_eq!(of("output_file", "x"), Some(OptionAccess::Files));
+        assert_eq!(of("some_new_path", "x"), Some(OptionAccess::Unknown));
         let scaling = "nlp_scaling_method";
-        assert_eq!(of(scaling, "Equilibration-Based"), Some(Reach::Code));
+        assert_eq!(of(scaling, "Equilibration-Based"), Some(OptionAccess::Code));
         assert_eq!(of(scaling, "none"), None);
         assert_eq!(of("mu_strategy", "adaptive"), None);
         assert_eq!(of("linear_solver", "mumps"), None);
         let number = OptionValue::Integer(1);
-        assert_eq!(reach_of_option("max_soc", &number), None);
-        let writes = reach_of_option("wsmp_write_matrix_iteration", &number);
-        assert_eq!(writes, Some(Reach::Files));
+        assert_eq!(access_of_option("max_soc", &number), None);
+        let writes = access_of_option("wsmp_write_matrix_iteration", &number);
+        assert_eq!(writes, Some(OptionAccess::Files));
     }
 }
