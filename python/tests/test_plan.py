@@ -83,6 +83,8 @@ def test_a_single_time_has_single_rows(planned):
     assert middle.joint_position.shape == (2,)
     assert middle.t == 10.0
     np.testing.assert_array_equal(middle.control, planned.sample([10.0]).control[0])
+    nothing = planned.sample([])
+    assert (nothing.t.shape, nothing.joint_position.shape) == ((0,), (0, 2))
 
 
 @pytest.mark.parametrize("t", [-0.1, 20.1, float("nan"), [1.0, 30.0], [[1.0]]])

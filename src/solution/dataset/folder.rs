@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 
 const PREFIX: &str = "part-";
 const ENDING: &str = ".parquet";
+/// Most rows of a batch: there is a bit for each up to the last that is done.
+const MOST_ROWS: i64 = 100_000_000;
 /// Where a part has its manifest.
 const BATCH: &str = "ffsm.batch";
 /// Columns that have a value in every row.
@@ -91,6 +93,10 @@ impl DataSet {
                 continue;
             };
             for row in rows.into_iter().flatten() {
+                if !(0..MOST_ROWS).contains(&row) {
+                    let reason = format!("it has a row {row}; a batch has at most {MOST_ROWS}");
+                    return Err(DataSetError::Damaged { path, reason });
+                }
                 if !done.insert(row as u64) {
                     return Err(DataSetError::Twice { path, row });
                 }

@@ -69,6 +69,8 @@ pub(super) fn diagnose<Sp: Space>(
         deadline,
         statistics: Statistics::default(),
         tried: 0,
+        work: 0,
+        has_bound: false,
     };
     let found = match first
         .iter()
@@ -131,8 +133,9 @@ fn least<Sp: Space>(
     first: Vec<ElasticLimit>,
     limits: Vec<ElasticLimit>,
 ) -> Result<Option<Found>, PlanError> {
+    let are_all = first.len() == limits.len();
     let found = search.run(first)?;
-    if found.as_ref().is_some_and(|found| !found.is_no_motion()) {
+    if are_all || found.as_ref().is_some_and(|found| !found.is_no_motion()) {
         return Ok(found);
     }
     let all = search.run(limits)?;

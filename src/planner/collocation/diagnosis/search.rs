@@ -60,6 +60,9 @@ const MESHES: usize = 10;
 /// λ₁ of (30) in the refinement at most: which limits give way where is found again on every mesh, which
 /// takes many iterations, so that meshes grow in steps.
 const PARTS: f64 = 1.0;
+/// Iterations times points that a look may take once it has a bound that works: some five seconds of a planar
+/// arm. What is gained after that is little, or without an end, as where rates have no limit.
+const MOST_WORK: usize = 400_000;
 /// Excess that the straight path is taken to have at least.
 const LEAST_EXCESS: f64 = 1e-2;
 
@@ -90,6 +93,10 @@ pub(super) struct Search<'a, 'm, Sp: Space> {
     pub statistics: Statistics,
     /// Starts so far, of all searches.
     pub tried: usize,
+    /// Iterations times points of the present look.
+    pub work: usize,
+    /// Whether the present look has a bound that works.
+    pub has_bound: bool,
 }
 
 impl<Sp: Space> Search<'_, '_, Sp> {
@@ -121,6 +128,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
         if limits.is_empty() {
             return Ok(None);
         }
+        (self.work, self.has_bound) = (0, false);
         let groups: Vec<LimitGroup> = limits.iter().map(|limit| limit.group.clone()).collect();
         let unit = self.control_unit(look, &limits)?;
         let elastic = |part: f64| {
@@ -160,7 +168,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
                 look, &candidate, &elastic, &patterns, &mut found, &mut least,
             )?;
             refined += usize::from(converged);
-            if look.is_held(least) || refined == REFINED {
+            if look.is_held(least) || refined == REFINED || self.work > self.most_work() {
                 break;
             }
         }
@@ -193,6 +201,7 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             if !outcome.converged {
                 break;
             }
+            self.has_bound = true;
             let excess = excess(&outcome.trajectory, &elastic);
             if excess < *least {
                 *least = excess;
@@ -291,22 +300,36 @@ impl<Sp: Space> Search<'_, '_, Sp> {
             solver: &solver,
         };
         let (mut before, mut no_motion) = (f64::INFINITY, false);
+        let (mut points_now, mut work, most) = (0, self.work, self.most_work());
         let mut outcome = refinement.run(from, &mut |event| {
             let control = (self.monitor)(&Event::Refinement(event));
-            if let refine::Event::Solved(record) = event {
-                no_motion = record.max_error >= GROSS && record.max_error > FALLS * before;
-                before = record.max_error;
+            match event {
+                refine::Event::Mesh { points, .. } => points_now = points,
+                refine::Event::Solver(_) => work += points_now,
+                refine::Event::Solved(record) => {
+                    no_motion = record.max_error >= GROSS && record.max_error > FALLS * before;
+                    before = record.max_error;
+                }
             }
-            match no_motion {
+            match no_motion || work > most {
                 true => Control::Stop,
                 false => control,
             }
         })?;
-        if no_motion && outcome.cut_short == Some(CutShort::Interrupted) {
+        self.work = work;
+        if (no_motion || work > most) && outcome.cut_short == Some(CutShort::Interrupted) {
             outcome.cut_short = None;
         }
         self.statistics.add(&outcome.statistics);
         Ok(outcome)
+    }
+
+    /// The work after which the present look ends.
+    fn most_work(&self) -> usize {
+        match self.has_bound {
+            true => MOST_WORK,
+            false => usize::MAX,
+        }
     }
 
     /// Weight of ∫‖u‖² at which the least control between start and goal costs as much as the straight
