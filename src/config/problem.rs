@@ -359,6 +359,24 @@ mod tests {
     }
 
     #[test]
+    fn the_solver_is_as_exact_as_the_mesh_asks() {
+        for (values, tolerance) in [
+            (&[][..], 1e-9),
+            (&["mesh.tolerance=1e-3"], 1e-9),
+            (&["mesh.tolerance=1e-7"], 1e-11),
+            (&["mesh.tolerance=1e-10"], 1e-12),
+            (&["mesh.tolerance=1e-7", "solver.tolerance=1e-8"], 1e-8),
+        ] {
+            let file = ProblemFile::load(Path::new(PATH), &with(values)).unwrap();
+            let found = file.problem.solver.tolerance;
+            assert!(
+                (found / tolerance - 1.0).abs() < 1e-12,
+                "{values:?}: {found}"
+            );
+        }
+    }
+
+    #[test]
     fn what_is_edited_reads_no_file_and_keeps_earlier_values() {
         // Where there is no robot's file any more.
         let first = ProblemFile::shipped("table1-smooth").unwrap();

@@ -234,8 +234,10 @@ impl Law<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::refine::{Bounded, Errors};
+    use crate::nlp::Status;
+    use crate::refine::{Bounded, Errors, Verdict};
     use crate::transcription::Discretization;
+    use std::time::Duration;
 
     /// ε_d = 10⁻⁵, λ₁ = 2, λ₂ = 3, r_max = 1.5, 5 points a part, at most 20.
     fn settings() -> Settings {
@@ -283,6 +285,47 @@ mod tests {
             facts: None,
             tolerance: settings.tolerance,
         })
+    }
+
+    /// Mesh iterations with these largest errors, of one cost.
+    fn records(errors: &[f64]) -> Vec<Record> {
+        let record = |&max_error: &f64| Record {
+            points: 5,
+            segments: 1,
+            breakpoints: vec![0.0, 1.0],
+            quadrature_error: max_error,
+            segment_errors: vec![vec![max_error]],
+            max_error,
+            max_violation: 0.0,
+            removable_violation: 0.0,
+            objective: 1.0,
+            objective_error: 0.0,
+            nlp_iterations: 1,
+            nlp_status: Status::Solved,
+            verdict: Verdict::AboveTolerance,
+            time: Duration::ZERO,
+            decisions: Vec::new(),
+        };
+        errors.iter().map(record).collect()
+    }
+
+    #[test]
+    fn errors_that_fall_have_not_stalled_whatever_came_before() {
+        for (errors, stalled) in [
+            // A lucky third mesh: those after it fall one after another.
+            (
+                &[3e-3, 2e-4, 1.1e-5, 2e-5, 2.6e-4, 1.4e-4, 3.6e-5][..],
+                false,
+            ),
+            (&[9e-3, 1e-4, 2e-5, 3.4e-5, 2.6e-5, 1.7e-5], false),
+            // A plateau, and errors that hardly fall.
+            (&[9e-3, 1e-4, 6e-5, 7e-5, 6.5e-5, 6.4e-5], true),
+            (&[9e-3, 1e-4, 2e-5, 1.9e-5, 4e-5, 3e-5], true),
+            // Too few to tell.
+            (&[1e-4, 1e-4, 1e-4, 1e-4], false),
+        ] {
+            assert_eq!(has_stalled(&records(errors), 1e-5), stalled, "{errors:?}");
+        }
     }
 
     #[test]
