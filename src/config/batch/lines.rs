@@ -8,7 +8,7 @@ use crate::config::{ConfigError, Place, regular};
 use serde::Deserialize;
 use serde::de::DeserializeSeed;
 use sha2::{Digest, Sha256};
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::fs::FileExt;
@@ -57,7 +57,9 @@ impl Lines {
         let mut lines = Vec::new();
         let mut hash = Sha256::new();
         let mut line = Vec::new();
-        let mut robots = BTreeSet::new();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        // Their names as digests: a file may name as many as it has lines, each as long as a line.
+        let mut robots = HashSet::new();
         let (mut at, mut number) = (0_u64, 0_u32);
         loop {
             line.clear();
@@ -82,18 +84,17 @@ impl Lines {
             let own = &line[mark..];
             if !own.trim_ascii().is_empty() {
                 lines.push((at + mark as u64, own.len() as u32, number));
-                robots.extend(robot(own));
+                let robot = robot(own).filter(|name| robots.insert(Sha256::digest(name)));
+                if let Some(name) = robot {
+                    // What cannot be read makes its rows malformed.
+                    let bytes = regular::read(&folder.join(name), LARGEST_ROBOT);
+                    hash.update(Sha256::digest(bytes.unwrap_or_default()));
+                }
             }
             if lines.len() as u64 > MOST_LINES {
                 return Err(unreadable(format!("it has more than {MOST_LINES} lines")));
             }
             at += length as u64;
-        }
-        let folder = path.parent().unwrap_or(Path::new(""));
-        for robot in robots {
-            // What cannot be read makes its rows malformed.
-            let bytes = regular::read(&folder.join(&robot), LARGEST_ROBOT).unwrap_or_default();
-            hash.update(Sha256::digest(&bytes));
         }
         match lines.is_empty() {
             true => Err(unreadable("it has no lines".into())),
